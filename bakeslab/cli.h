@@ -1,0 +1,41 @@
+/* cli.h - what all subcommands share: how they are called and how they fail.
+ *
+ * A subcommand is a function in cmd_NAME.c, listed in main.c's table. It
+ * returns the exit status: 0 done, 1 failed, 2 usage (a comparing command:
+ * 0 same, 1 differ, 2 trouble). Data goes to stdout, talk to stderr. */
+#ifndef CLI_H
+#define CLI_H
+
+#include <argp.h>
+#include <stdbool.h>
+
+#include "slab_error.h"
+
+enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
+
+int cmd_bake(int argc, char **argv);
+int cmd_check(int argc, char **argv);
+int cmd_convert(int argc, char **argv);
+int cmd_diff(int argc, char **argv);
+int cmd_include(int argc, char **argv);
+int cmd_info(int argc, char **argv);
+int cmd_lookup(int argc, char **argv);
+
+/* "bakeslab: MESSAGE" on stderr, as one line. */
+void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints the error and returns CLI_FAILED. */
+int cli_fail(const struct slab_error *error);
+
+/* Parses "NxM" (or "N" for NxN), both at least 1 and at most 65536. */
+bool cli_parse_size(const char *text, int size[2]);
+
+/* The command line that is running, quoted for a shell; outputs record it.
+ * Set by main, lives as long as the program. */
+const char *cli_command_line(void);
+
+/* Flushes stdout and says whether all that was printed got there: a full disk
+ * or a closed pipe is an error. Returns an exit status. */
+int cli_close_stdout(void);
+
+#endif
