@@ -11,6 +11,8 @@
 
 #include "slab_error.h"
 
+#define BAKESLAB_VERSION "0.1.0"
+
 enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
 
 int cmd_bake(int argc, char **argv);
@@ -33,6 +35,7 @@ bool cli_parse_size(const char *text, int size[2]);
 /* The command line that is running, quoted for a shell; outputs record it.
  * Set by main, lives as long as the program. */
 const char *cli_command_line(void);
+void cli_set_command_line(int argc, char **argv);
 
 /* Flushes stdout and says whether all that was printed got there: a full disk
  * or a closed pipe is an error. Returns an exit status. */

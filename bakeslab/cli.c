@@ -1,0 +1,100 @@
+/* cli.c - messages, arguments and exit statuses that all subcommands share. */
+#include "cli.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_SIZE = 65536 };
+
+static char *command_line;
+
+void cli_complain(const char *format, ...) {
+  char text[4096];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  for (char *c = text; *c; ++c)
+    if (*c == '\n' || *c == '\r') *c = ' ';
+  fprintf(stderr, "bakeslab: %s\n", text);
+}
+
+int cli_fail(const struct slab_error *error) {
+  cli_complain("%s", error->text);
+  return CLI_FAILED;
+}
+
+/* A decimal number from 1 to MAX_SIZE without sign or blanks. */
+static bool parse_count(const char *text, const char **end, int *count) {
+  int value = 0;
+  const char *c = text;
+  for (; *c >= '0' && *c <= '9'; ++c) {
+    value = value * 10 + (*c - '0');
+    if (value > MAX_SIZE) return false;
+  }
+  *end = c;
+  *count = value;
+  return c > text && value >= 1;
+}
+
+bool cli_parse_size(const char *text, int size[2]) {
+  const char *end;
+  int n, m;
+  if (!parse_count(text, &end, &n)) return false;
+  m = n;
+  if (*end == 'x' && !parse_count(end + 1, &end, &m)) return false;
+  if (*end) return false;
+  size[0] = n;
+  size[1] = m;
+  return true;
+}
+
+static bool needs_quotes(const char *word) {
+  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                              "0123456789_-+=./,:@%^";
+  return !*word || word[strspn(word, plain)];
+}
+
+/* Appends the word quoted for a shell; `out` has room for 4 bytes a byte. */
+static char *append_word(char *out, const char *word) {
+  if (!needs_quotes(word)) return stpcpy(out, word);
+  *out++ = '\'';
+  for (; *word; ++word) {
+    if (*word == '\'')
+      out = stpcpy(out, "'\\''");
+    else
+      *out++ = *word;
+  }
+  *out++ = '\'';
+  *out = 0;
+  return out;
+}
+
+void cli_set_command_line(int argc, char **argv) {
+  size_t room = 1;
+  for (int k = 0; k < argc; ++k) room += 4 * strlen(argv[k]) + 3;
+  free(command_line);
+  command_line = malloc(room);
+  if (!command_line) return;
+  char *out = stpcpy(command_line, "bakeslab"); /* wherever it was called from */
+  for (int k = 1; k < argc; ++k) {
+    *out++ = ' ';
+    out = append_word(out, argv[k]);
+  }
+}
+
+const char *cli_command_line(void) {
+  return command_line ? command_line : "bakeslab";
+}
+
+int cli_close_stdout(void) {
+  bool failed = ferror(stdout) != 0;
+  errno = 0;
+  if (fclose(stdout) != 0) failed = true;
+  if (!failed) return CLI_OK;
+  cli_complain("stdout: %s", errno ? strerror(errno) : "could not be written");
+  return CLI_FAILED;
+}
