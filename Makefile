@@ -1,35 +1,139 @@
 # Canned light sources: one dependency graph. `make help` lists the targets.
-# Each folder adds its own lines through flat.mk; objects go to build/$(config)/.
+# Each folder adds its own lines through flat.mk; nothing is built outside
+# $(B). A command line may set config, CC, CFLAGS, LDFLAGS, prefix, DESTDIR,
+# SETUP=no, V=1 (show every command) and T (see `make help`).
 
+VERSION := 0.1.0
 config ?= release
 B := build/$(config)
+V :=
 prefix ?= /usr/local
 SETUP ?= yes
 
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+ifeq ($(filter release debug sanitize,$(config)),)
+$(error config=$(config) is none of release, debug and sanitize)
+endif
+ifeq ($(filter -j%,$(MAKEFLAGS)),)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 1)
+endif
+
+# ---- Flags. pkg-config is asked when the first recipe needs it, not while the
+# Makefile is read: by then `setup` may just have installed the libraries.
 CFLAGS_release  := -O2 -g
 CFLAGS_debug    := -O0 -g
 CFLAGS_sanitize := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
 WARN := -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wvla
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
-PKG_CFLAGS = $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null)
-PKG_LIBS = $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/null)
+PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null))$(PKG_CFLAGS)
+PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/null))$(PKG_LIBS)
+DEFINES = -D_GNU_SOURCE -DBAKESLAB_VERSION='"$(VERSION)"' -DCANNED_DATADIR='"$(prefix)/share/canned"'
 
-CC ?= gcc
-ALL_CFLAGS = -std=c17 -D_GNU_SOURCE $(WARN) $(CFLAGS_$(config)) -Ibakeslab $(PKG_CFLAGS) -MMD -MP $(CFLAGS)
+ALL_CFLAGS = -std=c17 $(DEFINES) $(WARN) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab $(PKG_CFLAGS) $(CFLAGS)
+ALL_LDFLAGS = -Wl,--as-needed $(CFLAGS_$(config)) $(CFLAGS) $(LDFLAGS)
 ALL_LDLIBS = $(PKG_LIBS) -lpthread -lm $(LDLIBS)
 
+Q := $(if $(V),,@)
+say = $(if $(V),@:,@printf '%-5s %s\n' $(1) $(2))
+quote = '$(subst ','\'',$(1))'
+
 .DEFAULT_GOAL := all
-.PHONY: all
 .SECONDARY:
 .DELETE_ON_ERROR:
+.PHONY: FORCE all help setup man install uninstall clean
+
+# ---- Set-up: the Debian packages that the goals on the command line need.
+PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc) libc6-dev make pkg-config \
+  libtiff-dev libopenexr-dev libjansson-dev libxxhash-dev
+PACKAGES_demo := povray povray-includes openimageio-tools
+PACKAGES_man  := help2man scdoc
+PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_man) libcmocka-dev bats
+PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
+goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
+PACKAGES := $(sort $(PACKAGES_build) \
+  $(call goals_need,demo bench,$(PACKAGES_demo)) \
+  $(call goals_need,setup test sanitize,$(PACKAGES_test)) \
+  $(call goals_need,man install,$(PACKAGES_man)) \
+  $(call goals_need,lint,$(PACKAGES_lint)))
+
+# Compiling waits for it where the goal is one that sets up by itself.
+SETUP_FIRST := $(call goals_need,setup demo test bench lint sanitize man install,setup)
+
+all: $(B)/bakeslab ## build the program (the default)
+	@:
 
 include bakeslab/flat.mk
+include lamps/flat.mk
+include include-pov/flat.mk
+include render/flat.mk
 include tests/flat.mk
 
-all: $(B)/bakeslab
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@echo
+	@echo 'config=release|debug|sanitize  CC=clang  prefix=$(prefix)  DESTDIR=  SETUP=no  V=1'
+	@echo 'make test T=unit/test_slab runs one test; T="cli/% unit/%" runs two folders'
 
-$(B)/%.o: %.c
+# Installs what dpkg does not know yet; asks neither apt nor the network
+# when nothing is missing.
+setup: ## install the Debian packages that are missing (SETUP=no: never)
+ifneq ($(SETUP),no)
+	@if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then \
+	  have=$$(dpkg-query -W -f='$${db:Status-Status} $${Package}\n' $(PACKAGES) 2>/dev/null | sed -n 's/^installed //p'); \
+	  missing=; for p in $(PACKAGES); do printf '%s\n' "$$have" | grep -qxF "$$p" || missing="$$missing $$p"; done; \
+	  if [ -n "$$missing" ]; then \
+	    echo "make setup: apt installs$$missing"; \
+	    root=; if [ "$$(id -u)" != 0 ]; then root=sudo; command -v sudo >/dev/null || { \
+	      echo "make setup: neither root nor sudo: as root, apt-get install$$missing" >&2; exit 1; }; fi; \
+	    $$root env DEBIAN_FRONTEND=noninteractive apt-get update -qq </dev/null && \
+	    $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing </dev/null || { \
+	      echo "make setup: apt could not install$$missing" >&2; exit 1; }; \
+	  fi; \
+	elif ! pkg-config --exists $(PACKAGES_USED) 2>/dev/null; then \
+	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, POV-Ray 3.7 and oiiotool (tests: cmocka, bats, help2man, scdoc) by other means' >&2; exit 1; \
+	fi
+endif
+
+# ---- Compiling. The flags are a file, so that other flags rebuild.
+$(B)/flags: FORCE | $(SETUP_FIRST)
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) -c $< -o $@
+	@pkg-config --exists $(PACKAGES_USED) 2>/dev/null || { \
+	  echo 'The libraries $(PACKAGES_USED) (pkg-config names) are not all here: run `make setup`.' >&2; exit 1; }
+	@printf '%s\n' $(call quote,$(CC) $(ALL_CFLAGS) / $(ALL_LDFLAGS) $(ALL_LDLIBS)) >$@.new
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
--include $(shell find $(B) -name '*.d' 2>/dev/null)
+$(B)/%.o: %.c $(B)/flags
+	@mkdir -p $(@D)
+	$(call say,CC,$<)
+	$(Q)$(CC) $(ALL_CFLAGS) $(EXTRA_CFLAGS) -MMD -MP -c $< -o $@
+
+$(B)/%.a:
+	$(call say,AR,$@)
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+
+man: $(MAN_PAGES) ## write the man pages
+	@:
+
+# ---- Installing.
+DATA_FILES := $(POV_FILES)
+DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
+dest := $(DESTDIR)$(prefix)
+
+install: all $(MAN_PAGES) ## install below DESTDIR and prefix
+	$(Q)install -D -m 755 $(B)/bakeslab $(dest)/bin/bakeslab
+	$(Q)for f in $(DATA_FILES); do \
+	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
+	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done
+	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done
+	@echo 'installed bin/bakeslab, share/canned/include-pov, share/man and share/doc/canned below $(dest)'
+
+uninstall: ## remove what install put there
+	$(Q)rm -f $(dest)/bin/bakeslab $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
+	$(Q)rm -rf $(dest)/share/canned $(dest)/share/doc/canned
+
+clean: ## remove everything that was built
+	$(Q)rm -rf build
+
+-include $(wildcard $(B)/*/*.d $(B)/*/*/*.d)

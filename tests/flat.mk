@@ -1,0 +1,52 @@
+# Tests: tests/*/test_*.c are cmocka programs, tests/**/*.bats run the program
+# as a user would. Other C files beside a test_*.c are linked with each test of
+# that folder. A test is named by its path without suffix: unit/test_slab.
+TEST_JOBS ?= $(shell nproc 2>/dev/null || echo 1)
+TEST_TIMEOUT ?= 540
+T := %
+
+TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
+TEST_HELPERS := $(filter-out $(TEST_SOURCES),$(wildcard tests/*/*.c))
+TEST_BATS := $(sort $(wildcard tests/*/*.bats tests/*/*/*.bats))
+TEST_NAMES := $(TEST_SOURCES:tests/%.c=%) $(TEST_BATS:tests/%.bats=%)
+# Long ones first, so that no core is idle at the end.
+TEST_LONG := $(filter chain/% house/%,$(TEST_NAMES))
+TEST_CHOSEN := $(filter $(T),$(TEST_LONG) $(filter-out $(TEST_LONG),$(TEST_NAMES)))
+TEST_LOGS := $(TEST_CHOSEN:%=$(B)/tests/%.log)
+
+TEST_ENV = BAKESLAB=$(abspath $(B)/bakeslab) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
+  CONFIG=$(config) TEST_JOBS=$(TEST_JOBS) TEST_TIMEOUT=$(TEST_TIMEOUT) \
+  CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 LC_ALL=C.UTF-8
+
+.PHONY: test bench lint sanitize
+
+test: $(TEST_LOGS) ## run the tests
+	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
+	@sh tests/summary.sh $(TEST_LOGS)
+
+bench: $(B)/bakeslab ## measure, and print the tables that README.md quotes
+	@mkdir -p build/bench
+	@for b in tests/bench/*.sh; do [ -x "$$b" ] || continue; \
+	  $(TEST_ENV) BUILD=$(abspath build/bench) "$$b" || exit 1; done
+
+lint: $(B)/flags ## check formatting, static analysis and house rules
+	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh
+
+sanitize: ## run unit and command-line tests with address and undefined behaviour sanitizers
+	+@$(MAKE) --no-print-directory config=sanitize T='unit/% cli/%' test
+
+$(TEST_SOURCES:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests
+
+define test_program
+$(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(filter $(dir $(1))%,$(TEST_HELPERS))) $(B)/libbake.a $(B)/libslab.a
+	$$(call say,LINK,$$@)
+	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ -lcmocka $$(ALL_LDLIBS) -o $$@
+
+$(B)/$(1:.c=.log): $(B)/$(1:.c=) $(B)/bakeslab FORCE
+	@$$(TEST_ENV) sh tests/run.sh $$@ $$<
+endef
+$(foreach t,$(TEST_SOURCES),$(eval $(call test_program,$(t))))
+
+$(TEST_BATS:%.bats=$(B)/%.log): $(B)/%.log: %.bats $(B)/bakeslab FORCE
+	@mkdir -p $(@D)
+	@$(TEST_ENV) sh tests/run.sh $@ bats --tap $<

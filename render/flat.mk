@@ -1,0 +1,1 @@
+# The reference renderer will live here (README.md).
