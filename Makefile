@@ -7,6 +7,7 @@ VERSION := 0.1.0
 config ?= release
 B := build/$(config)
 V :=
+BIN := $(B)/bin/bakeslab
 prefix ?= /usr/local
 SETUP ?= yes
 
@@ -61,7 +62,7 @@ PACKAGES := $(sort $(PACKAGES_build) \
 # Compiling waits for it where the goal is one that sets up by itself.
 SETUP_FIRST := $(call goals_need,setup demo test bench lint sanitize man install,setup)
 
-all: $(B)/bakeslab ## build the program (the default)
+all: $(BIN) ## build the program (the default)
 	@:
 
 include bakeslab/flat.mk
@@ -122,7 +123,7 @@ DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
 dest := $(DESTDIR)$(prefix)
 
 install: all $(MAN_PAGES) ## install below DESTDIR and prefix
-	$(Q)install -D -m 755 $(B)/bakeslab $(dest)/bin/bakeslab
+	$(Q)install -D -m 755 $(BIN) $(dest)/bin/bakeslab
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done

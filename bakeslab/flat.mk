@@ -6,21 +6,24 @@ BAKE_OBJECTS := $(patsubst %.c,$(B)/%.o,$(filter-out bakeslab/slab%.c bakeslab/m
 $(B)/libslab.a: $(SLAB_OBJECTS)
 $(B)/libbake.a: $(BAKE_OBJECTS)
 
-$(B)/bakeslab: $(B)/bakeslab/main.o $(B)/libbake.a $(B)/libslab.a
+$(BIN): $(B)/bakeslab/main.o $(B)/libbake.a $(B)/libslab.a
+	@mkdir -p $(@D)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
 # bakeslab.1, one page a subcommand (from --help, so that they cannot differ),
 # and light-slab.5.
-COMMANDS := $(patsubst bakeslab/cmd_%.c,%,$(wildcard bakeslab/cmd_*.c))
+COMMANDS := $(filter-out missing,$(patsubst bakeslab/cmd_%.c,%,$(wildcard bakeslab/cmd_*.c)))
 MAN_PAGES := $(B)/man/bakeslab.1 $(COMMANDS:%=$(B)/man/bakeslab-%.1) $(B)/man/light-slab.5
 
-$(B)/man/%.1: bakeslab/man.sh $(B)/bakeslab | $(SETUP_FIRST)
+DATE = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || date +%s))
+
+$(B)/man/%.1: bakeslab/man.sh $(BIN) | $(SETUP_FIRST)
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
-	$(Q)sh bakeslab/man.sh $(B)/bakeslab $* $(VERSION) >$@
+	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/man.sh $(BIN) $* $(VERSION) >$@
 
 $(B)/man/%.5: bakeslab/%.5.scd | $(SETUP_FIRST)
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
-	$(Q)SOURCE_DATE_EPOCH=$${SOURCE_DATE_EPOCH:-0} scdoc <$< >$@
+	$(Q)SOURCE_DATE_EPOCH=$(DATE) scdoc <$< >$@

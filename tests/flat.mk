@@ -14,7 +14,7 @@ TEST_LONG := $(filter chain/% house/%,$(TEST_NAMES))
 TEST_CHOSEN := $(filter $(T),$(TEST_LONG) $(filter-out $(TEST_LONG),$(TEST_NAMES)))
 TEST_LOGS := $(TEST_CHOSEN:%=$(B)/tests/%.log)
 
-TEST_ENV = BAKESLAB=$(abspath $(B)/bakeslab) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
+TEST_ENV = BAKESLAB=$(abspath $(BIN)) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
   CONFIG=$(config) TEST_JOBS=$(TEST_JOBS) TEST_TIMEOUT=$(TEST_TIMEOUT) \
   CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 LC_ALL=C.UTF-8
 
@@ -24,7 +24,7 @@ test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
 	@sh tests/summary.sh $(TEST_LOGS)
 
-bench: $(B)/bakeslab ## measure, and print the tables that README.md quotes
+bench: $(BIN) ## measure, and print the tables that README.md quotes
 	@mkdir -p build/bench
 	@for b in tests/bench/*.sh; do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) "$$b" || exit 1; done
@@ -42,11 +42,11 @@ $(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(filter $(dir $(1))%,$(T
 	$$(call say,LINK,$$@)
 	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ -lcmocka $$(ALL_LDLIBS) -o $$@
 
-$(B)/$(1:.c=.log): $(B)/$(1:.c=) $(B)/bakeslab FORCE
+$(B)/$(1:.c=.log): $(B)/$(1:.c=) $(BIN) FORCE
 	@$$(TEST_ENV) sh tests/run.sh $$@ $$<
 endef
 $(foreach t,$(TEST_SOURCES),$(eval $(call test_program,$(t))))
 
-$(TEST_BATS:%.bats=$(B)/%.log): $(B)/%.log: %.bats $(B)/bakeslab FORCE
+$(TEST_BATS:%.bats=$(B)/%.log): $(B)/%.log: %.bats $(BIN) FORCE
 	@mkdir -p $(@D)
 	@$(TEST_ENV) sh tests/run.sh $@ bats --tap $<
