@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# lint.sh - formatting, static analysis and house rules; quiet when clean.
+# `make lint` calls it at the root with CC, FLAGS (as for compiling) and JOBS.
+set -u
+status=0
+JOBS=${JOBS:-2}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# check WHAT COMMAND...: prints what it said, and a heading, only if it fails.
+check() {
+  local what=$1
+  shift
+  if ! "$@" >"$work/log" 2>&1; then
+    echo "lint: $what"
+    sed 's/^/  /' "$work/log"
+    status=1
+  fi
+}
+
+# The compiler's flags as words; FLAGS is quoted as for a shell.
+flags=()
+eval "flags=(${FLAGS:-})"
+# What git would commit: tracked, and new but not ignored.
+mapfile -t files < <(git ls-files --cached --others --exclude-standard | while read -r f; do [ -f "$f" ] && echo "$f"; done)
+only() { printf '%s\n' "${files[@]}" | grep -E "$1"; }
+mapfile -t sources < <(only '\.c$')
+mapfile -t headers < <(only '\.h$')
+mapfile -t public < <(only '^bakeslab/slab[^/]*\.h$')
+mapfile -t bats < <(only '\.(bats|bash)$')
+mapfile -t shells < <(for f in "${files[@]}"; do
+  case $f in *.bats | *.bash | *.c | *.h) continue ;; esac
+  head -n 1 "$f" | grep -qaE '^#!.*[ /](ba)?sh( |$)' && echo "$f"
+done)
+
+each_alone() { # "COMPILER AND STANDARD" HEADER...: every header compiles by itself
+  local compiler header bad=0
+  read -ra compiler <<<"$1"
+  for header in "${@:2}"; do
+    "${compiler[@]}" -fsyntax-only -Wall -Wextra -Werror -Ibakeslab -Itests -D_GNU_SOURCE "$header" || bad=1
+  done
+  return "$bad"
+}
+
+long_files() {
+  only '\.(c|h|cc|sh|bats|inc|pov|mk|scd)$|^Makefile$' | xargs wc -l |
+    awk '$2 != "total" && $1 > 550 { print $2 ": " $1 " lines; at most 550"; bad = 1 } END { exit bad }'
+}
+
+machine_paths() { # this checkout's folder, its neighbours, somebody's home
+  local top=$PWD found=0 where
+  for where in "$top/" "$(dirname "$top")/" "$HOME/"; do
+    [ "${#where}" -ge 6 ] || continue
+    case $where in /usr/* | /etc/* | /tmp/) continue ;; esac
+    git grep -nIF -e "$where" -- . && found=1
+  done
+  git grep -nIE -e '/(home|Users)/[a-z]' -- . ':!tests/lint.sh' && found=1
+  return "$found"
+}
+
+unfinished() { ! git grep -nIwE 'TODO|FIXME|XXX|HACK' -- '*.c' '*.h' '*.inc' '*.pov' '*.mk' '*.sh' '*.bats' Makefile ':!tests/lint.sh'; }
+
+tidy() {
+  printf '%s\0' "${sources[@]}" | xargs -0 -P "$JOBS" -I FILE clang-tidy --quiet FILE -- "${flags[@]}" -Itests 2>&1 |
+    grep -vE '^[0-9]+ warnings? generated|^Suppressed |^Use -header-filter'
+  return "$((PIPESTATUS[1] != 0))"
+}
+
+analyse() { # only bakeslab/: assertions of cmocka confuse the analyser
+  only '^bakeslab/.*\.c$' | xargs -n 1 -P "$JOBS" gcc "${flags[@]}" -fanalyzer -Werror -c -o /dev/null
+}
+
+check 'clang-format (run: clang-format -i FILE)' clang-format --dry-run -Werror "${sources[@]}" "${headers[@]}"
+check 'headers compile alone as C17' each_alone 'gcc -x c -std=c17' "${headers[@]}"
+check 'public headers compile alone as C++17' each_alone 'g++ -x c++ -std=c++17' "${public[@]}"
+check 'files too long' long_files
+check 'machine paths' machine_paths
+check 'unfinished marks' unfinished
+# SC2317: functions are called through check.
+check shellcheck shellcheck -e SC2317 "${shells[@]}"
+[ "${#bats[@]}" -eq 0 ] || check 'shellcheck (bats)' shellcheck -s bats "${bats[@]}"
+check cppcheck cppcheck -q --std=c11 --enable=warning,performance,portability --inline-suppr -j "$JOBS" \
+  --suppress=missingIncludeSystem --error-exitcode=1 -Ibakeslab -D_GNU_SOURCE -DBAKESLAB_VERSION='"0"' \
+  -DCANNED_DATADIR='""' "${sources[@]}"
+check clang-tidy tidy
+check 'gcc -fanalyzer' analyse
+exit "$status"
