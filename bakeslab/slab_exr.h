@@ -2,11 +2,14 @@
  *
  * Pixels are interleaved float RGB, rows downwards. A single picture is all
  * that POV-Ray's frames, sheet images and results need; slab_file.c reads
- * and writes the pages of slabs with the rest. */
+ * and writes the pages of slabs with the second half. */
 #ifndef SLAB_EXR_H
 #define SLAB_EXR_H
 
 #include "slab_error.h"
+
+struct slab_output;
+struct slab_raster;
 
 #ifdef __cplusplus
 extern "C" {
@@ -27,8 +30,29 @@ enum slab_result slab_exr_read(const char *path, struct slab_picture *picture,
 /* Writes one part, half or float, losslessly compressed, whole or not at all.
  * `comment` goes into the string attribute "comments"; NULL for none. A value
  * that half cannot hold is refused. */
-enum slab_result slab_exr_write(const char *path, const struct slab_picture *picture,
-                                int half, const char *comment, struct slab_error *error);
+enum slab_result slab_exr_write(const char *path, const struct slab_picture *picture, int half,
+                                const char *comment, struct slab_error *error);
+
+/* The same into a file that is already open, several parts: part p is named
+ * "pageP" and carries its text in the string attribute `text_name`. */
+enum slab_result slab_exr_write_parts(struct slab_output *output, const struct slab_raster *parts,
+                                      int count, const char *text_name, struct slab_error *error);
+
+/* A file of parts that is read by blocks. Part numbers start at 0 here and at
+ * 1 in messages. */
+struct slab_exr; /* owned by whoever opened it */
+
+/* Reads the headers. Takes over `fd`, also when it fails; `path` is for
+ * messages. The text of each part is that of the string attribute `text_name`. */
+enum slab_result slab_exr_open(int fd, const char *path, const char *text_name,
+                               struct slab_exr **exr, struct slab_error *error);
+void slab_exr_close(struct slab_exr *exr); /* NULL allowed */
+int slab_exr_parts(const struct slab_exr *exr);
+struct slab_raster *slab_exr_part(struct slab_exr *exr, int part); /* owned by the file */
+
+/* Reads a block into slab_raster_block_pixels pixels. */
+enum slab_result slab_exr_read_block(struct slab_exr *exr, int part, int column, int row,
+                                     float *rgb, struct slab_error *error);
 
 #ifdef __cplusplus
 }

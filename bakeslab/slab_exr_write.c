@@ -1,0 +1,183 @@
+/* slab_exr_write.c - writes OpenEXR files, ZIP compressed, in tiles or scan
+ * lines, half or float. */
+#include <errno.h>
+#include <math.h>
+#include <openexr.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "slab_exr.h"
+#include "slab_half.h"
+#include "slab_output.h"
+#include "slab_raster.h"
+
+struct writer {
+  exr_context_t context;
+  struct slab_output *output;
+  const struct slab_raster *parts;
+  int count;
+  char why[256];
+};
+
+static void remember(exr_const_context_t context, exr_result_t code, const char *message) {
+  (void)code;
+  void *data = NULL;
+  if (exr_get_user_data(context, &data) != EXR_ERR_SUCCESS || !data) return;
+  struct writer *writer = data;
+  if (!*writer->why) snprintf(writer->why, sizeof writer->why, "%s", message);
+}
+
+static int64_t write_bytes(exr_const_context_t context, void *data, const void *buffer,
+                           uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t complain) {
+  struct writer *writer = data;
+  if (slab_output_write(writer->output, buffer, size, offset) == 0) return (int64_t)size;
+  snprintf(writer->why, sizeof writer->why, "%s", strerror(errno));
+  complain(context, EXR_ERR_WRITE_IO, "%s", writer->why);
+  return -1;
+}
+
+static exr_result_t define_part(struct writer *writer, int index, const char *text_name) {
+  const struct slab_raster *raster = &writer->parts[index];
+  bool tiled = raster->block_width > 0;
+  exr_pixel_type_t type =
+      raster->precision == SLAB_PRECISION_HALF ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+  char name[32];
+  int part;
+  snprintf(name, sizeof name, "page%d", index + 1);
+  exr_result_t code =
+      exr_add_part(writer->context, name, tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part);
+  if (code == EXR_ERR_SUCCESS)
+    code = exr_initialize_required_attr_simple(writer->context, part, raster->width, raster->height,
+                                               EXR_COMPRESSION_ZIP);
+  if (code == EXR_ERR_SUCCESS && tiled)
+    code = exr_set_tile_descriptor(writer->context, part, (uint32_t)raster->block_width,
+                                   (uint32_t)raster->block_height, EXR_TILE_ONE_LEVEL,
+                                   EXR_TILE_ROUND_DOWN);
+  for (const char *channel = "BGR"; *channel && code == EXR_ERR_SUCCESS; ++channel) {
+    const char one[2] = {*channel, 0};
+    code = exr_add_channel(writer->context, part, one, type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+  }
+  if (code == EXR_ERR_SUCCESS && raster->text)
+    code = exr_attr_set_string(writer->context, part, text_name, raster->text);
+  return code;
+}
+
+/* Encodes the block at (x, y); `halves` has room for its pixels. */
+static exr_result_t write_block(struct writer *writer, int part, const exr_chunk_info_t *chunk,
+                                int x, int y, uint16_t *halves) {
+  const struct slab_raster *raster = &writer->parts[part];
+  const float *from = raster->rgb + 3 * ((size_t)y * (size_t)raster->width + (size_t)x);
+  const uint8_t *base = (const uint8_t *)from;
+  int element = sizeof(float), row_pixels = raster->width;
+  if (raster->precision == SLAB_PRECISION_HALF) {
+    for (int row = 0; row < chunk->height; ++row)
+      for (int k = 0; k < 3 * chunk->width; ++k)
+        halves[(size_t)row * 3 * (size_t)chunk->width + (size_t)k] =
+            slab_half_from_float(from[3 * (size_t)row * (size_t)raster->width + (size_t)k]);
+    base = (const uint8_t *)halves;
+    element = sizeof *halves;
+    row_pixels = chunk->width;
+  }
+  exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+  exr_result_t code = exr_encoding_initialize(writer->context, part, chunk, &pipeline);
+  for (int k = 0; code == EXR_ERR_SUCCESS && k < pipeline.channel_count; ++k) {
+    exr_coding_channel_info_t *channel = &pipeline.channels[k];
+    int place = channel->channel_name[0] == 'R' ? 0 : channel->channel_name[0] == 'G' ? 1 : 2;
+    channel->encode_from_ptr = base + place * element;
+    channel->user_bytes_per_element = (int16_t)element;
+    channel->user_data_type = channel->data_type;
+    channel->user_pixel_stride = 3 * element;
+    channel->user_line_stride = 3 * element * row_pixels;
+  }
+  if (code == EXR_ERR_SUCCESS)
+    code = exr_encoding_choose_default_routines(writer->context, part, &pipeline);
+  if (code == EXR_ERR_SUCCESS) code = exr_encoding_run(writer->context, part, &pipeline);
+  exr_encoding_destroy(writer->context, &pipeline);
+  return code;
+}
+
+static exr_result_t write_part(struct writer *writer, int part) {
+  const struct slab_raster *raster = &writer->parts[part];
+  bool tiled = raster->block_width > 0;
+  int32_t lines = 0;
+  exr_result_t code = exr_get_scanlines_per_chunk(writer->context, part, &lines);
+  if (tiled) code = EXR_ERR_SUCCESS; /* the question is for scan lines only */
+  if (code != EXR_ERR_SUCCESS) return code;
+  int step_x = tiled ? raster->block_width : raster->width;
+  int step_y = tiled ? raster->block_height : lines;
+  uint16_t *halves = NULL;
+  if (raster->precision == SLAB_PRECISION_HALF) {
+    halves = calloc((size_t)step_x * (size_t)step_y, 3 * sizeof *halves);
+    if (!halves) return EXR_ERR_OUT_OF_MEMORY;
+  }
+  for (int y = 0; y < raster->height && code == EXR_ERR_SUCCESS; y += step_y)
+    for (int x = 0; x < raster->width && code == EXR_ERR_SUCCESS; x += step_x) {
+      exr_chunk_info_t chunk = {0};
+      code = tiled ? exr_write_tile_chunk_info(writer->context, part, x / step_x, y / step_y, 0, 0,
+                                               &chunk)
+                   : exr_write_scanline_chunk_info(writer->context, part, y, &chunk);
+      if (code == EXR_ERR_SUCCESS) code = write_block(writer, part, &chunk, x, y, halves);
+    }
+  free(halves);
+  return code;
+}
+
+enum slab_result slab_exr_write_parts(struct slab_output *output, const struct slab_raster *parts,
+                                      int count, const char *text_name, struct slab_error *error) {
+  struct writer writer = {.output = output, .parts = parts, .count = count};
+  exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  setup.error_handler_fn = remember;
+  setup.user_data = &writer;
+  setup.write_fn = write_bytes;
+  exr_result_t code =
+      exr_start_write(&writer.context, output->target, EXR_WRITE_FILE_DIRECTLY, &setup);
+  for (int part = 0; part < count && code == EXR_ERR_SUCCESS; ++part)
+    code = define_part(&writer, part, text_name);
+  if (code == EXR_ERR_SUCCESS) code = exr_write_header(writer.context);
+  for (int part = 0; part < count && code == EXR_ERR_SUCCESS; ++part)
+    code = write_part(&writer, part);
+  if (writer.context) {
+    exr_result_t finished = exr_finish(&writer.context);
+    if (code == EXR_ERR_SUCCESS) code = finished;
+  }
+  if (code == EXR_ERR_SUCCESS) return SLAB_OK;
+  return slab_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? SLAB_MEMORY : SLAB_IO,
+                   "%s: cannot be written: %s", output->target,
+                   *writer.why ? writer.why : exr_get_default_error_message(code));
+}
+
+static enum slab_result check_half(const char *path, const struct slab_picture *picture,
+                                   struct slab_error *error) {
+  for (int y = 0; y < picture->height; ++y)
+    for (int x = 0; x < picture->width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        float value =
+            picture->rgb[3 * ((size_t)y * (size_t)picture->width + (size_t)x) + (size_t)c];
+        if (!slab_half_holds(value))
+          return slab_fail(error, SLAB_BAD,
+                           "%s: pixel %d,%d is %g, half holds at most 65504: write float", path, x,
+                           y, (double)value);
+      }
+  return SLAB_OK;
+}
+
+enum slab_result slab_exr_write(const char *path, const struct slab_picture *picture, int half,
+                                const char *comment, struct slab_error *error) {
+  enum slab_result result = half ? check_half(path, picture, error) : SLAB_OK;
+  if (result != SLAB_OK) return result;
+  char *text = comment ? strdup(comment) : NULL;
+  if (comment && !text) return slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+  struct slab_raster raster = {.width = picture->width,
+                               .height = picture->height,
+                               .precision = half ? SLAB_PRECISION_HALF : SLAB_PRECISION_FLOAT,
+                               .text = text,
+                               .rgb = picture->rgb};
+  struct slab_output output = {0};
+  result = slab_output_begin(&output, path, error);
+  if (result == SLAB_OK) result = slab_exr_write_parts(&output, &raster, 1, "comments", error);
+  if (result == SLAB_OK) result = slab_output_commit(&output, error);
+  slab_output_abandon(&output);
+  free(text);
+  return result;
+}

@@ -1,0 +1,94 @@
+/* slab_output.c - temporary name, fsync, rename. */
+#include "slab_output.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum slab_result slab_output_begin(struct slab_output *output, const char *path,
+                                   struct slab_error *error) {
+  memset(output, 0, sizeof *output);
+  output->fd = -1;
+  struct stat status;
+  if (stat(path, &status) == 0) {
+    if (!S_ISREG(status.st_mode))
+      return slab_fail(error, SLAB_IO, "%s: exists and is not a regular file", path);
+    output->target = realpath(path, NULL);
+  } else {
+    output->target = strdup(path);
+  }
+  size_t room = output->target ? strlen(output->target) + sizeof ".XXXXXX" : 0;
+  output->temporary = room ? malloc(room) : NULL;
+  if (!output->temporary) {
+    slab_output_abandon(output);
+    return slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+  }
+  snprintf(output->temporary, room, "%s.XXXXXX", output->target);
+  output->fd = mkstemp(output->temporary);
+  if (output->fd < 0) {
+    int why = errno;
+    free(output->temporary);
+    output->temporary = NULL;
+    slab_output_abandon(output);
+    return slab_fail(error, SLAB_IO, "%s: cannot be written: %s", path, strerror(why));
+  }
+  mode_t mask = umask(0);
+  umask(mask);
+  /* mkstemp made it private; a file system without modes does not matter. */
+  (void)!fchmod(output->fd, 0666 & ~mask);
+  return SLAB_OK;
+}
+
+int slab_output_write(struct slab_output *output, const void *bytes, size_t count,
+                      uint64_t offset) {
+  const char *from = bytes;
+  while (count > 0) {
+    ssize_t written = pwrite(output->fd, from, count, (off_t)offset);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      if (written == 0) errno = ENOSPC;
+      return -1;
+    }
+    from += written;
+    count -= (size_t)written;
+    offset += (uint64_t)written;
+  }
+  return 0;
+}
+
+enum slab_result slab_output_commit(struct slab_output *output, struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  int failed = fsync(output->fd) != 0 && errno != EINVAL;
+  int why = errno;
+  if (close(output->fd) != 0 && !failed) {
+    failed = 1;
+    why = errno;
+  }
+  output->fd = -1;
+  if (!failed && rename(output->temporary, output->target) != 0) {
+    failed = 1;
+    why = errno;
+  }
+  if (failed) {
+    result = slab_fail(error, SLAB_IO, "%s: cannot be written: %s", output->target, strerror(why));
+  } else {
+    free(output->temporary);
+    output->temporary = NULL;
+  }
+  slab_output_abandon(output);
+  return result;
+}
+
+void slab_output_abandon(struct slab_output *output) {
+  if (output->temporary) {
+    if (output->fd >= 0) close(output->fd);
+    unlink(output->temporary);
+  }
+  free(output->temporary);
+  free(output->target);
+  memset(output, 0, sizeof *output);
+  output->fd = -1;
+}
