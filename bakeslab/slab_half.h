@@ -36,7 +36,7 @@ static inline uint16_t slab_half_from_float(float value) {
   if (!slab_half_holds(value)) return (uint16_t)(sign | 0x7c00);
   int exponent;
   frexpf(size, &exponent); /* size = m 2^exponent, 1/2 <= m < 1 */
-  if (exponent < -13) exponent = -13;
+  if (exponent < -13 || size == 0) exponent = -13;
   /* Mantissa in units of the last place, 11 bits: rintf rounds to even. A
    * carry runs over into the exponent field, as it must. */
   int mantissa = (int)rintf(ldexpf(size, 11 - exponent));
