@@ -1,0 +1,289 @@
+/* slab_json.c - reads and writes the JSON text of a page with jansson. */
+#include "slab_json.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FORMAT_VERSION = 1 };
+
+static enum slab_result get_numbers(const json_t *root, const char *key, double *out, size_t count,
+                                    struct slab_error *error) {
+  const json_t *array = json_object_get(root, key);
+  if (!array) return slab_fail(error, SLAB_BAD, "required key \"%s\" is missing", key);
+  if (!json_is_array(array) || json_array_size(array) != count)
+    return slab_fail(error, SLAB_BAD, "\"%s\" must be an array of %zu numbers", key, count);
+  for (size_t k = 0; k < count; ++k) {
+    const json_t *number = json_array_get(array, k);
+    if (!json_is_number(number))
+      return slab_fail(error, SLAB_BAD, "\"%s\" must be an array of %zu numbers", key, count);
+    out[k] = json_number_value(number);
+  }
+  return SLAB_OK;
+}
+
+static enum slab_result get_number(const json_t *root, const char *key, double *out,
+                                   struct slab_error *error) {
+  const json_t *number = json_object_get(root, key);
+  if (!number) return SLAB_OK;
+  if (!json_is_number(number)) return slab_fail(error, SLAB_BAD, "\"%s\" must be a number", key);
+  *out = json_number_value(number);
+  return SLAB_OK;
+}
+
+static enum slab_result get_string(const json_t *root, const char *key, char *out, size_t room,
+                                   struct slab_error *error) {
+  const json_t *string = json_object_get(root, key);
+  if (!string) return SLAB_OK;
+  if (!json_is_string(string)) return slab_fail(error, SLAB_BAD, "\"%s\" must be a string", key);
+  size_t length = json_string_length(string);
+  if (length >= room || strlen(json_string_value(string)) != length)
+    return slab_fail(error, SLAB_BAD, "\"%s\" is longer than %zu bytes", key, room - 1);
+  memcpy(out, json_string_value(string), length + 1);
+  return SLAB_OK;
+}
+
+static enum slab_result check_format(const json_t *root, struct slab_error *error) {
+  if (!json_is_object(root)) return slab_fail(error, SLAB_BAD, "the JSON text is not an object");
+  const json_t *format = json_object_get(root, "format");
+  if (!format) return slab_fail(error, SLAB_BAD, "required key \"format\" is missing");
+  if (!json_is_string(format) || strcmp(json_string_value(format), "light-slab") != 0)
+    return slab_fail(error, SLAB_BAD, "\"format\" is not \"light-slab\"");
+  const json_t *version = json_object_get(root, "version");
+  if (!version) return slab_fail(error, SLAB_BAD, "required key \"version\" is missing");
+  if (!json_is_integer(version))
+    return slab_fail(error, SLAB_BAD, "\"version\" must be an integer");
+  if (json_integer_value(version) != FORMAT_VERSION)
+    return slab_fail(error, SLAB_BAD,
+                     "version %" JSON_INTEGER_FORMAT
+                     " of the format is unknown (this program reads version %d)",
+                     json_integer_value(version), FORMAT_VERSION);
+  return SLAB_OK;
+}
+
+static enum slab_result get_samples(const json_t *root, struct slab *slab,
+                                    struct slab_error *error) {
+  const json_t *array = json_object_get(root, "samples");
+  if (!array) return slab_fail(error, SLAB_BAD, "required key \"samples\" is missing");
+  if (!json_is_array(array) || json_array_size(array) != SLAB_AXES)
+    return slab_fail(error, SLAB_BAD, "\"samples\" must be an array of 4 integers");
+  for (size_t axis = 0; axis < SLAB_AXES; ++axis) {
+    const json_t *number = json_array_get(array, axis);
+    if (!json_is_integer(number))
+      return slab_fail(error, SLAB_BAD, "\"samples\" must be an array of 4 integers");
+    json_int_t value = json_integer_value(number);
+    if (value < 1 || value > 1 << 30)
+      return slab_fail(error, SLAB_BAD,
+                       "\"samples\" has %" JSON_INTEGER_FORMAT ", each must be at least 1", value);
+    slab->samples[axis] = (int)value;
+  }
+  return SLAB_OK;
+}
+
+static enum slab_result get_distance(const json_t *root, struct slab *slab,
+                                     struct slab_error *error) {
+  if (json_is_null(json_object_get(root, "st_distance"))) return SLAB_OK;
+  return get_number(root, "st_distance", &slab->st_distance, error);
+}
+
+static enum slab_result check_samples_are(const json_t *root, struct slab_error *error) {
+  const json_t *how = json_object_get(root, "samples_are");
+  if (!how) return SLAB_OK;
+  const char *text = json_string_value(how);
+  if (text && (!strcmp(text, "cell_means") || !strcmp(text, "points"))) return SLAB_OK;
+  return slab_fail(error, SLAB_BAD, "\"samples_are\" must be \"cell_means\" or \"points\"");
+}
+
+static enum slab_result get_white(const json_t *root, double white[3], struct slab_error *error) {
+  white[0] = white[1] = white[2] = 1;
+  if (!json_object_get(root, "logluv_white")) return SLAB_OK;
+  enum slab_result result = get_numbers(root, "logluv_white", white, 3, error);
+  for (int c = 0; c < 3 && result == SLAB_OK; ++c)
+    if (!(white[c] > 0) || !isfinite(1 / white[c]))
+      result = slab_fail(error, SLAB_BAD, "\"logluv_white\" must be positive");
+  return result;
+}
+
+static enum slab_result get_fields(const json_t *root, struct slab *slab, double white[3],
+                                   struct slab_error *error) {
+  enum slab_result result = check_format(root, error);
+  if (result == SLAB_OK) result = get_samples(root, slab, error);
+  if (result == SLAB_OK) result = get_numbers(root, "center", slab->center, 3, error);
+  if (result == SLAB_OK) result = get_numbers(root, "u", slab->u, 3, error);
+  if (result == SLAB_OK) result = get_numbers(root, "v", slab->v, 3, error);
+  if (result == SLAB_OK) result = get_numbers(root, "normal", slab->normal, 3, error);
+  if (result == SLAB_OK) result = get_numbers(root, "st_window", slab->st_window, 4, error);
+  if (result == SLAB_OK) result = get_distance(root, slab, error);
+  if (result == SLAB_OK)
+    result = get_number(root, "metres_per_unit", &slab->metres_per_unit, error);
+  if (result == SLAB_OK) result = get_string(root, "name", slab->name, sizeof slab->name, error);
+  if (result == SLAB_OK)
+    result =
+        get_string(root, "radiance_unit", slab->radiance_unit, sizeof slab->radiance_unit, error);
+  if (result == SLAB_OK) result = check_samples_are(root, error);
+  if (result == SLAB_OK) result = get_white(root, white, error);
+  if (result == SLAB_OK) result = slab_check(slab, error);
+  return result;
+}
+
+enum slab_result slab_json_parse(const char *text, struct slab *slab, double white[3],
+                                 struct slab_error *error) {
+  enum slab_result result;
+  double ignored[3];
+  json_error_t json_error;
+  *slab = slab_default();
+  json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, &json_error);
+  if (root)
+    result = get_fields(root, slab, white ? white : ignored, error);
+  else
+    result =
+        slab_fail(error, SLAB_BAD, "malformed JSON: line %d: %s", json_error.line, json_error.text);
+  if (result == SLAB_OK) {
+    slab->json = strdup(text);
+    if (!slab->json) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  }
+  if (result != SLAB_OK) slab_free(slab);
+  json_decref(root);
+  return result;
+}
+
+/* The page's JSON as an object to change, or a new one. */
+static enum slab_result load_object(const struct slab *slab, json_t **root,
+                                    struct slab_error *error) {
+  json_error_t json_error;
+  *root = slab->json ? json_loads(slab->json, 0, &json_error) : json_object();
+  if (!*root && slab->json)
+    return slab_fail(error, SLAB_BAD, "malformed JSON: line %d: %s", json_error.line,
+                     json_error.text);
+  if (!*root) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (json_is_object(*root)) return SLAB_OK;
+  json_decref(*root);
+  *root = NULL;
+  return slab_fail(error, SLAB_BAD, "the JSON text is not an object");
+}
+
+static char *dump(const json_t *value) {
+  return json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+}
+
+/* A whole number is written without a fraction: 1, not 1.0. */
+static json_t *number(double value) {
+  return value == rint(value) && fabs(value) < 1e15 ? json_integer((json_int_t)value)
+                                                    : json_real(value);
+}
+
+static json_t *numbers(const double *values, size_t count) {
+  json_t *array = json_array();
+  for (size_t k = 0; array && k < count; ++k)
+    if (json_array_append_new(array, number(values[k])) != 0) {
+      json_decref(array);
+      array = NULL;
+    }
+  return array;
+}
+
+enum slab_result slab_json_text(const struct slab *slab, const double white[3], char **text,
+                                struct slab_error *error) {
+  *text = NULL;
+  json_t *root = NULL;
+  enum slab_result result = slab_check(slab, error);
+  if (result == SLAB_OK) result = load_object(slab, &root, error);
+  if (result != SLAB_OK) return result;
+  json_t *samples = json_array();
+  int failed = !samples;
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    failed |= json_array_append_new(samples, json_integer(slab->samples[axis])) != 0;
+  failed |= json_object_set_new(root, "format", json_string("light-slab")) != 0;
+  failed |= json_object_set_new(root, "version", json_integer(FORMAT_VERSION)) != 0;
+  failed |= json_object_set_new(root, "name", json_string(slab->name)) != 0;
+  failed |= json_object_set_new(root, "samples", samples) != 0;
+  failed |= json_object_set_new(root, "center", numbers(slab->center, 3)) != 0;
+  failed |= json_object_set_new(root, "u", numbers(slab->u, 3)) != 0;
+  failed |= json_object_set_new(root, "v", numbers(slab->v, 3)) != 0;
+  failed |= json_object_set_new(root, "normal", numbers(slab->normal, 3)) != 0;
+  failed |= json_object_set_new(root, "st_window", numbers(slab->st_window, 4)) != 0;
+  failed |=
+      json_object_set_new(root, "st_distance",
+                          isinf(slab->st_distance) ? json_null() : number(slab->st_distance)) != 0;
+  failed |= json_object_set_new(root, "metres_per_unit", number(slab->metres_per_unit)) != 0;
+  failed |= json_object_set_new(root, "radiance_unit", json_string(slab->radiance_unit)) != 0;
+  if (white)
+    failed |= json_object_set_new(root, "logluv_white", numbers(white, 3)) != 0;
+  else
+    json_object_del(root, "logluv_white");
+  if (!failed) *text = dump(root);
+  json_decref(root);
+  if (*text) return SLAB_OK;
+  return slab_fail(error, SLAB_BAD, "the description cannot be written as JSON%s",
+                   failed ? " (is the name UTF-8?)" : "");
+}
+
+enum slab_result slab_json_set(struct slab *slab, const char *key, const char *value,
+                               struct slab_error *error) {
+  json_t *root = NULL, *parsed = NULL;
+  json_error_t json_error;
+  char *text = NULL;
+  enum slab_result result = load_object(slab, &root, error);
+  if (result != SLAB_OK) return result;
+  if (value) {
+    parsed = json_loads(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &json_error);
+    if (!parsed) {
+      result = slab_fail(error, SLAB_BAD, "\"%s\": malformed JSON: line %d: %s", key,
+                         json_error.line, json_error.text);
+      goto out;
+    }
+    json_object_set(root, key, parsed);
+  } else {
+    json_object_del(root, key);
+  }
+  text = dump(root);
+  if (!text) {
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+    goto out;
+  }
+  free(slab->json);
+  slab->json = text;
+out:
+  json_decref(parsed);
+  json_decref(root);
+  return result;
+}
+
+char *slab_json_get(const struct slab *slab, const char *key) {
+  json_t *root = NULL;
+  if (load_object(slab, &root, NULL) != SLAB_OK) return NULL;
+  const json_t *value = json_object_get(root, key);
+  char *text = value ? dump(value) : NULL;
+  json_decref(root);
+  return text;
+}
+
+enum slab_result slab_json_record(struct slab *slab, const char *command, const char *tool,
+                                  struct slab_error *error) {
+  json_t *root = NULL, *fresh = json_object();
+  char *text = NULL;
+  enum slab_result result = load_object(slab, &root, error);
+  if (result != SLAB_OK) goto out;
+  json_t *old = json_object_get(root, "provenance");
+  json_t *history = json_object_get(old, "history");
+  history = json_is_array(history) ? json_copy(history) : json_array();
+  json_object_set_new(fresh, "command", json_string(command));
+  json_object_set_new(fresh, "tool", json_string(tool));
+  for (const char *const *key = (const char *const[]){"effects", "noise", NULL}; *key; ++key)
+    if (json_object_get(old, *key)) json_object_set(fresh, *key, json_object_get(old, *key));
+  if (old) {
+    json_t *entry = json_copy(old);
+    json_object_del(entry, "history");
+    json_array_append_new(history, entry);
+  }
+  json_object_set_new(fresh, "history", history);
+  text = dump(fresh);
+  result = text ? slab_json_set(slab, "provenance", text, error)
+                : slab_fail(error, SLAB_MEMORY, "out of memory");
+out:
+  free(text);
+  json_decref(fresh);
+  json_decref(root);
+  return result;
+}

@@ -1,0 +1,43 @@
+/* slab_json.h - the JSON text of a page, to and from struct slab
+ * (light-slab(5)). Keys that we do not know are kept. Messages do not name a
+ * file. */
+#ifndef SLAB_JSON_H
+#define SLAB_JSON_H
+
+#include "slab.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Fills a slab's geometry from a text, which it copies into slab->json. The
+ * slab is checked; samples stay NULL. `white` (NULL allowed) receives
+ * "logluv_white", or ones. On failure the slab is empty. */
+enum slab_result slab_json_parse(const char *text, struct slab *slab, double white[3],
+                                 struct slab_error *error);
+
+/* The text for a page: slab->json with the slab's fields put over it, and
+ * "logluv_white" where white is not NULL. The caller frees it. */
+enum slab_result slab_json_text(const struct slab *slab, const double white[3], char **text,
+                                struct slab_error *error);
+
+/* Sets a key of the page's JSON, say "provenance", to a JSON value given as
+ * text; NULL removes the key. Keys that are fields of struct slab are taken
+ * from there when the page is written. */
+enum slab_result slab_json_set(struct slab *slab, const char *key, const char *value,
+                               struct slab_error *error);
+
+/* The value of a key as JSON text, or NULL where there is none or no memory.
+ * The caller frees it. */
+char *slab_json_get(const struct slab *slab, const char *key);
+
+/* Records that `command` made the slab. An older provenance is kept: it moves
+ * to the end of the array "history" inside the new one, "effects" and "noise"
+ * stay where they are, since they still describe the light. */
+enum slab_result slab_json_record(struct slab *slab, const char *command, const char *tool,
+                                  struct slab_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
