@@ -119,20 +119,22 @@ man: $(MAN_PAGES) ## write the man pages
 
 # ---- Installing.
 DATA_FILES := $(POV_FILES)
+LIB_FILES := $(READS)
 DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
 dest := $(DESTDIR)$(prefix)
 
-install: all $(MAN_PAGES) ## install below DESTDIR and prefix
+install: all $(LIB_FILES) $(MAN_PAGES) ## install below DESTDIR and prefix
 	$(Q)install -D -m 755 $(BIN) $(dest)/bin/bakeslab
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
+	$(Q)for f in $(LIB_FILES); do install -D -m 644 $$f $(dest)/lib/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done
 	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done
-	@echo 'installed bin/bakeslab, share/canned/include-pov, share/man and share/doc/canned below $(dest)'
+	@echo 'installed bin/bakeslab, lib/canned, share/canned/include-pov, share/man and share/doc/canned below $(dest)'
 
 uninstall: ## remove what install put there
 	$(Q)rm -f $(dest)/bin/bakeslab $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
-	$(Q)rm -rf $(dest)/share/canned $(dest)/share/doc/canned
+	$(Q)rm -rf $(dest)/share/canned $(dest)/share/doc/canned $(dest)/lib/canned
 
 clean: ## remove everything that was built
 	$(Q)rm -rf build

@@ -1,0 +1,71 @@
+#!/usr/bin/env bats
+# make install, and what is installed: the program, its data, its man pages.
+load house
+
+setup_file() {
+  load house
+  # A prefix of its own goes into the program, hence a build of its own.
+  export PREFIX=$BATS_FILE_TMPDIR/usr
+  house_make B="$BATS_FILE_TMPDIR/build" config=debug prefix="$PREFIX" install
+}
+
+@test "the program, include files, man pages and documents are installed" {
+  [ -x "$PREFIX/bin/bakeslab" ]
+  cmp "$ROOT/include-pov/canned.inc" "$PREFIX/share/canned/include-pov/canned.inc"
+  cmp "$ROOT/include-pov/LICENSE" "$PREFIX/share/canned/include-pov/LICENSE"
+  cmp "$ROOT/README.md" "$PREFIX/share/doc/canned/README.md"
+  cmp "$ROOT/lamps/parabolic.pov" "$PREFIX/share/doc/canned/lamps/parabolic.pov"
+  [ -s "$PREFIX/share/man/man1/bakeslab.1" ]
+  [ -s "$PREFIX/share/man/man5/light-slab.5" ]
+  for command in $(commands); do [ -s "$PREFIX/share/man/man1/bakeslab-$command.1" ]; done
+}
+
+@test "DESTDIR stands before the prefix, and uninstall leaves nothing" {
+  dest=$BATS_TEST_TMPDIR/dest
+  house_make B="$BATS_FILE_TMPDIR/build" config=debug prefix="$PREFIX" DESTDIR="$dest" install
+  [ -x "$dest$PREFIX/bin/bakeslab" ]
+  house_make B="$BATS_FILE_TMPDIR/build" config=debug prefix="$PREFIX" DESTDIR="$dest" uninstall
+  [ -z "$(find "$dest" -type f)" ]
+}
+
+@test "every option of a command stands in its man page" {
+  for command in $(commands); do
+    page=$PREFIX/share/man/man1/bakeslab-$command.1
+    options=$("$PREFIX/bin/bakeslab" "$command" --help | grep -oE -- '--[a-z][a-z-]*' | sort -u)
+    [ -n "$options" ]
+    for option in $options; do
+      sed 's/\\-/-/g' "$page" | grep -qF -- "$option" || { echo "$page lacks $option"; false; }
+    done
+  done
+}
+
+@test "man pages are clean roff" {
+  for page in "$PREFIX"/share/man/man?/*; do
+    # groff may be missing on a small machine; help2man and scdoc do not need it.
+    command -v groff >/dev/null || skip "no groff"
+    run groff -man -Tutf8 -ww -z "$page"
+    [ -z "$output" ]
+  done
+}
+
+@test "the installed program finds its include files and bakes" {
+  cd "$BATS_TEST_TMPDIR"
+  cp "$ROOT/lamps/parabolic.pov" .
+  unset CANNED_INCLUDE
+  "$PREFIX/bin/bakeslab" bake parabolic.pov -o lamp.tif --uv 2x2 --st 4x4 --rays 1
+  "$PREFIX/bin/bakeslab" info lamp.tif
+}
+
+@test "the reader in light-slab(5) compiles and agrees with the program" {
+  cd "$BATS_TEST_TMPDIR"
+  sed -n '/^#include <jansson/,/^}/p' "$ROOT/bakeslab/light-slab.5.scd" | sed 's/\\\\/\\/g' >reader.c
+  gcc -Wall -Wextra -Werror reader.c -o reader -ltiff -ljansson
+  cp "$ROOT/lamps/parabolic.pov" .
+  "$PREFIX/bin/bakeslab" bake parabolic.pov -o lamp.tif --uv 4x4 --st 16x16 --rays 1
+  # Sample (2, 1, 8, 7) sits at a = 2.5, b = -2.5, s = -t = half a cell of 3/16.
+  read -r red green blue < <(./reader lamp.tif 2 1 8 7)
+  echo "2.5 0 -2.5  0.09375 -1 -0.09375" | "$PREFIX/bin/bakeslab" lookup lamp.tif >looked
+  awk -v r="$red" -v g="$green" -v b="$blue" '
+    function near(x, y) { return x - y < 1e-4 * y && y - x < 1e-4 * y }
+    { exit !(r > 0 && near($1, r) && near($2, g) && near($3, b)) }' looked
+}

@@ -1,0 +1,117 @@
+#!/usr/bin/env bats
+# The Makefile's own behaviour, against a stand-in for apt where it sets up.
+load house
+
+@test "make help lists the targets" {
+  run house_make help
+  [ "$status" -eq 0 ]
+  for target in all setup demo test bench lint sanitize install uninstall clean man help; do
+    grep -q "^make $target  *[a-z]" <<<"$output"
+  done
+}
+
+@test "an unknown configuration is refused in one line" {
+  run house_make config=fast all
+  [ "$status" -eq 2 ]
+  [ "${#lines[@]}" -eq 1 ]
+  [[ $output == *"config=fast is none of release, debug and sanitize"* ]]
+}
+
+@test "a test that does not exist is refused with a list" {
+  run house_make B="$BATS_TEST_TMPDIR" test T=unit/test_nonsense
+  [ "$status" -ne 0 ]
+  [[ $output == *"T=unit/test_nonsense names no test"*"house/makefile"* ]]
+}
+
+@test "without the libraries, make all says make setup" {
+  PKG_CONFIG_LIBDIR=/nowhere PKG_CONFIG_PATH='' run house_make B="$BATS_TEST_TMPDIR" all
+  [ "$status" -ne 0 ]
+  [[ $output == *'libtiff-4'*'run `make setup`'* ]]
+}
+
+@test "other flags rebuild, the same flags do not" {
+  b=$BATS_TEST_TMPDIR/b
+  one=$b/bakeslab/slab_error.o
+  house_make B="$b" CFLAGS=-O0 "$one"
+  run house_make B="$b" CFLAGS=-O0 "$one"
+  [[ $output != *CC* ]]
+  run house_make B="$b" CFLAGS=-O1 "$one"
+  [[ $output == *"CC    bakeslab/slab_error.c"* ]]
+}
+
+# A folder that comes first in PATH: a dpkg-query that knows every package but
+# those in MISSING, and apt-get and sudo that write down how they were called.
+fake_debian() {
+  fake=$BATS_TEST_TMPDIR/fake
+  mkdir -p "$fake"
+  cat >"$fake/dpkg-query" <<'END'
+#!/bin/sh
+for p in "$@"; do
+  case " $MISSING " in *" $p "*) continue ;; esac
+  case $p in -*) ;; *) echo "installed $p" ;; esac
+done
+END
+  printf '#!/bin/sh\necho "apt-get $*" >>"%s/called"\n' "$fake" >"$fake/apt-get"
+  printf '#!/bin/sh\n"$@"\n' >"$fake/sudo"
+  chmod +x "$fake"/*
+  PATH=$fake:$PATH
+}
+
+@test "setup installs what is missing, named first, and nothing twice" {
+  fake_debian
+  MISSING='bats povray' run house_make SETUP=yes setup
+  [ "$status" -eq 0 ]
+  [ "${lines[0]}" = "make setup: apt installs bats povray" ]
+  [ "$(cat "$fake/called")" = "apt-get update -qq
+apt-get install -y -q --no-install-recommends bats povray" ]
+
+  rm "$fake/called"
+  MISSING='' run house_make SETUP=yes setup
+  [ "$status" -eq 0 ]
+  [ -z "$output" ]
+  [ ! -e "$fake/called" ]
+}
+
+@test "SETUP=no asks nobody" {
+  fake_debian
+  MISSING='bats povray' run house_make SETUP=no setup
+  [ "$status" -eq 0 ]
+  [ ! -e "$fake/called" ]
+}
+
+@test "an apt that fails stops make and names the packages" {
+  fake_debian
+  printf '#!/bin/sh\nexit 100\n' >"$fake/apt-get"
+  MISSING='libtiff-dev' run house_make SETUP=yes setup
+  [ "$status" -ne 0 ]
+  [[ $output == *"apt could not install libtiff-dev"* ]]
+}
+
+@test "each goal asks for its own packages only" {
+  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" -n demo
+  [[ $output == *povray* && $output != *libcmocka-dev* ]]
+  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" -n test
+  [[ $output == *povray* && $output == *libcmocka-dev* && $output != *clang-tidy* ]]
+  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" -n all
+  [[ $output != *apt-get* ]]
+}
+
+@test "a failing, a crashing and a silent test are counted and shown" {
+  log=$BATS_TEST_TMPDIR/x.log
+  sh "$ROOT/tests/run.sh" "$log" printf '1..3\nok 1 a\nnot ok 2 b\nok 3 c # skip no reason\n'
+  [ "$(cat "$log.count")" = "1 1 1" ]
+  run sh "$ROOT/tests/summary.sh" "$log"
+  [ "$status" -eq 1 ]
+  [ "${lines[0]}" = "skipped: ok 3 c # skip no reason" ]
+  [ "${lines[1]}" = "1 passed, 1 failed" ]
+
+  run sh "$ROOT/tests/run.sh" "$log" sh -c 'echo 1..2; echo "ok 1 a"; kill -9 $$'
+  [[ $output == FAIL* ]]
+  [ "$(cat "$log.count")" = "1 1 0" ]
+
+  sh "$ROOT/tests/run.sh" "$log" true
+  [ "$(cat "$log.count")" = "0 1 0" ]
+
+  TEST_TIMEOUT=1 sh "$ROOT/tests/run.sh" "$log" sleep 20
+  [ "$(cat "$log.count")" = "0 1 0" ]
+}
