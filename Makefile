@@ -3,7 +3,7 @@
 # $(B). A command line may set config, CC, CFLAGS, LDFLAGS, prefix, DESTDIR,
 # SETUP=no, V=1 (show every command) and T (see `make help`).
 
-VERSION := 0.1.0
+VERSION := $(shell sed -n 's,^.define BAKESLAB_VERSION "\(.*\)",\1,p' bakeslab/cli.h)
 config ?= release
 B := build/$(config)
 V :=
@@ -30,7 +30,7 @@ WARN := -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wvla
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/null))$(PKG_LIBS)
-DEFINES = -D_GNU_SOURCE -DBAKESLAB_VERSION='"$(VERSION)"' -DCANNED_DATADIR='"$(prefix)/share/canned"'
+DEFINES = -D_GNU_SOURCE -DCANNED_DATADIR='"$(prefix)/share/canned"'
 
 ALL_CFLAGS = -std=c17 $(DEFINES) $(WARN) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab $(PKG_CFLAGS) $(CFLAGS)
 ALL_LDFLAGS = -Wl,--as-needed $(CFLAGS_$(config)) $(CFLAGS) $(LDFLAGS)

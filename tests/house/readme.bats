@@ -52,3 +52,9 @@ make test" ]
   povray +Iscene.pov +Oscene.png +W32 +H24 -D -A -GA 2>scene.log
   [ -s scene.png ]
 }
+
+@test "the version is the same everywhere" {
+  version=$("$BAKESLAB" --version | awk '{ print $2 }')
+  [[ $version =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]]
+  grep -qx "version: $version" "$ROOT/CITATION.cff"
+}
