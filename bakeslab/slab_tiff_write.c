@@ -1,0 +1,154 @@
+/* slab_tiff_write.c - writes pages as tiled LogLuv, float or half TIFF. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <tiffio.h>
+#include <unistd.h>
+
+#include "slab_half.h"
+#include "slab_logluv.h"
+#include "slab_tiff.h"
+
+const double slab_tiff_white[3] = {1.0022531, 1.0, 0.9844087};
+
+/* SGILOG32 holds luminance from 2^-64 to 2^64 and chromaticities u', v' up to
+ * 255/410. What is dimmer becomes black. */
+static const double brightest = 0x1p63;
+static const double widest = 255.0 / 410.0;
+
+bool slab_tiff_logluv_holds(const float rgb[3]) {
+  if (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) return true;
+  double xyz[3];
+  slab_logluv_from_rgb(rgb, xyz);
+  for (int c = 0; c < 3; ++c) xyz[c] *= slab_tiff_white[c];
+  double sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
+  return xyz[1] > 0 && xyz[1] < brightest && xyz[0] >= 0 && xyz[2] >= 0 &&
+         4 * xyz[0] < widest * sum && 9 * xyz[1] < widest * sum;
+}
+
+struct writer {
+  TIFF *tif;
+  bool failed;
+  char why[256];
+};
+
+static int remember(TIFF *tif, void *data, const char *module, const char *format,
+                    va_list arguments) {
+  (void)tif, (void)module;
+  struct writer *writer = data;
+  writer->failed = true;
+  vsnprintf(writer->why, sizeof writer->why, format, arguments);
+  return 1;
+}
+
+static int ignore(TIFF *tif, void *data, const char *module, const char *format,
+                  va_list arguments) {
+  (void)tif, (void)data, (void)module, (void)format, (void)arguments;
+  return 1;
+}
+
+static bool set_tags(TIFF *tif, const struct slab_raster *raster) {
+  bool ok = TIFFSetField(tif, TIFFTAG_IMAGEWIDTH, raster->width) &&
+            TIFFSetField(tif, TIFFTAG_IMAGELENGTH, raster->height) &&
+            TIFFSetField(tif, TIFFTAG_TILEWIDTH, raster->block_width) &&
+            TIFFSetField(tif, TIFFTAG_TILELENGTH, raster->block_height) &&
+            TIFFSetField(tif, TIFFTAG_SAMPLESPERPIXEL, 3) &&
+            TIFFSetField(tif, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) &&
+            TIFFSetField(tif, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) &&
+            TIFFSetField(tif, TIFFTAG_SOFTWARE, "bakeslab");
+  if (ok && raster->text) ok = TIFFSetField(tif, TIFFTAG_IMAGEDESCRIPTION, raster->text);
+  if (!ok) return false;
+  if (raster->precision == SLAB_PRECISION_LOGLUV)
+    return TIFFSetField(tif, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_LOGLUV) &&
+           TIFFSetField(tif, TIFFTAG_COMPRESSION, COMPRESSION_SGILOG) &&
+           TIFFSetField(tif, TIFFTAG_SGILOGDATAFMT, SGILOGDATAFMT_FLOAT) &&
+           TIFFSetField(tif, TIFFTAG_SGILOGENCODE, SGILOGENCODE_NODITHER);
+  int bits = raster->precision == SLAB_PRECISION_HALF ? 16 : 32;
+  return TIFFSetField(tif, TIFFTAG_BITSPERSAMPLE, bits) &&
+         TIFFSetField(tif, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP) &&
+         TIFFSetField(tif, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB) &&
+         TIFFSetField(tif, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE) &&
+         TIFFSetField(tif, TIFFTAG_PREDICTOR, PREDICTOR_FLOATINGPOINT);
+}
+
+static void encode_pixel(const struct slab_raster *raster, const float *rgb, void *tile,
+                         size_t pixel) {
+  if (raster->precision == SLAB_PRECISION_HALF) {
+    uint16_t *halves = tile;
+    for (size_t c = 0; c < 3; ++c) halves[3 * pixel + c] = slab_half_from_float(rgb[c]);
+    return;
+  }
+  float *floats = (float *)tile + 3 * pixel;
+  memcpy(floats, rgb, 3 * sizeof *floats);
+  if (raster->precision != SLAB_PRECISION_LOGLUV) return;
+  double xyz[3];
+  slab_logluv_from_rgb(rgb, xyz);
+  for (int c = 0; c < 3; ++c) floats[c] = (float)(xyz[c] * raster->white[c]);
+}
+
+/* Fills a tile; beyond the border the last pixels repeat, which packs well. */
+static void encode_tile(const struct slab_raster *raster, int x0, int y0, void *tile) {
+  size_t pixel = 0;
+  for (int y = y0; y < y0 + raster->block_height; ++y)
+    for (int x = x0; x < x0 + raster->block_width; ++x, ++pixel) {
+      size_t row = (size_t)(y < raster->height ? y : raster->height - 1);
+      size_t column = (size_t)(x < raster->width ? x : raster->width - 1);
+      encode_pixel(raster, raster->rgb + 3 * (row * (size_t)raster->width + column), tile, pixel);
+    }
+}
+
+static bool write_page(TIFF *tif, const struct slab_raster *raster) {
+  if (!set_tags(tif, raster)) return false;
+  size_t element = raster->precision == SLAB_PRECISION_HALF ? sizeof(uint16_t) : sizeof(float);
+  size_t bytes = 3 * element * slab_raster_block_pixels(raster);
+  void *tile = malloc(bytes);
+  if (!tile) return false;
+  bool ok = true;
+  uint32_t index = 0;
+  for (int row = 0; ok && row < slab_raster_rows(raster); ++row)
+    for (int column = 0; ok && column < slab_raster_columns(raster); ++column) {
+      encode_tile(raster, column * raster->block_width, row * raster->block_height, tile);
+      ok = TIFFWriteEncodedTile(tif, index++, tile, (tmsize_t)bytes) >= 0;
+    }
+  free(tile);
+  return ok && TIFFWriteDirectory(tif);
+}
+
+/* Upper bound of the file's size: compression may add a little. */
+static bool may_pass_4gb(const struct slab_raster *pages, int count) {
+  double bytes = 0;
+  for (int page = 0; page < count; ++page) {
+    double pixels = (double)slab_raster_block_pixels(&pages[page]) *
+                    slab_raster_columns(&pages[page]) * slab_raster_rows(&pages[page]);
+    double each = pages[page].precision == SLAB_PRECISION_LOGLUV ? 4
+                  : pages[page].precision == SLAB_PRECISION_HALF ? 6
+                                                                 : 12;
+    bytes += 1.05 * pixels * each + 1e6;
+  }
+  return bytes > 0xffffffff;
+}
+
+enum slab_result slab_tiff_write(struct slab_output *output, const struct slab_raster *pages,
+                                 int count, struct slab_error *error) {
+  struct writer writer = {0};
+  TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
+  int fd = dup(output->fd); /* libtiff closes its own, the output syncs the other */
+  if (options && fd >= 0) {
+    TIFFOpenOptionsSetErrorHandlerExtR(options, remember, &writer);
+    TIFFOpenOptionsSetWarningHandlerExtR(options, ignore, &writer);
+    writer.tif =
+        TIFFFdOpenExt(fd, output->target, may_pass_4gb(pages, count) ? "w8" : "w", options);
+  }
+  if (options) TIFFOpenOptionsFree(options);
+  if (!writer.tif) {
+    if (fd >= 0) close(fd);
+    writer.failed = true;
+  }
+  for (int page = 0; page < count && !writer.failed; ++page)
+    if (!write_page(writer.tif, &pages[page])) writer.failed = true;
+  if (writer.tif) TIFFClose(writer.tif); /* may fail too, and says so to remember() */
+  if (!writer.failed) return SLAB_OK;
+  return slab_fail(error, SLAB_IO, "%s: cannot be written: %s", output->target,
+                   *writer.why ? writer.why : "out of memory");
+}
