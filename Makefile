@@ -88,9 +88,10 @@ ifneq ($(SETUP),no)
 	    echo "make setup: apt installs$$missing"; \
 	    root=; if [ "$$(id -u)" != 0 ]; then root=sudo; command -v sudo >/dev/null || { \
 	      echo "make setup: neither root nor sudo: as root, apt-get install$$missing" >&2; exit 1; }; fi; \
-	    $$root env DEBIAN_FRONTEND=noninteractive apt-get update -qq </dev/null && \
-	    $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing </dev/null || { \
-	      echo "make setup: apt could not install$$missing" >&2; exit 1; }; \
+	    mkdir -p $(B); log=$(B)/setup.log; echo "make setup: this can take minutes; apt's words go to $$log"; \
+	    { $$root env DEBIAN_FRONTEND=noninteractive apt-get update -qq && \
+	      $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing; } \
+	      </dev/null >$$log 2>&1 || { tail -n 20 $$log; echo "make setup: apt could not install$$missing" >&2; exit 1; }; \
 	  fi; \
 	elif ! pkg-config --exists $(PACKAGES_USED) 2>/dev/null; then \
 	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, POV-Ray 3.7 and oiiotool (tests: cmocka, bats, help2man, scdoc) by other means' >&2; exit 1; \

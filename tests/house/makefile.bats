@@ -59,14 +59,14 @@ END
 
 @test "setup installs what is missing, named first, and nothing twice" {
   fake_debian
-  MISSING='bats povray' run house_make SETUP=yes setup
+  MISSING='bats povray' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
   [ "$status" -eq 0 ]
   [ "${lines[0]}" = "make setup: apt installs bats povray" ]
   [ "$(cat "$fake/called")" = "apt-get update -qq
 apt-get install -y -q --no-install-recommends bats povray" ]
 
   rm "$fake/called"
-  MISSING='' run house_make SETUP=yes setup
+  MISSING='' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
   [ "$status" -eq 0 ]
   [ -z "$output" ]
   [ ! -e "$fake/called" ]
@@ -82,7 +82,7 @@ apt-get install -y -q --no-install-recommends bats povray" ]
 @test "an apt that fails stops make and names the packages" {
   fake_debian
   printf '#!/bin/sh\nexit 100\n' >"$fake/apt-get"
-  MISSING='libtiff-dev' run house_make SETUP=yes setup
+  MISSING='libtiff-dev' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
   [ "$status" -ne 0 ]
   [[ $output == *"apt could not install libtiff-dev"* ]]
 }
