@@ -17,7 +17,8 @@ endif
 ifeq ($(filter release debug sanitize,$(config)),)
 $(error config=$(config) is none of release, debug and sanitize)
 endif
-ifeq ($(filter -j%,$(MAKEFLAGS)),)
+# All cores unless told otherwise, but once: a make below this one shares them.
+ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 1)
 endif
 
