@@ -33,6 +33,14 @@ mapfile -t shells < <(for f in "${files[@]}"; do
   head -n 1 "$f" | grep -qaE '^#!.*[ /](ba)?sh( |$)' && echo "$f"
 done)
 
+formatted() {
+  local file bad=0
+  for file in "${sources[@]}" "${headers[@]}"; do
+    clang-format --dry-run -Werror "$file" 2>/dev/null || { echo "$file"; bad=1; }
+  done
+  return "$bad"
+}
+
 each_alone() { # "COMPILER AND STANDARD" HEADER...: every header compiles by itself
   local compiler header bad=0
   read -ra compiler <<<"$1"
@@ -70,7 +78,7 @@ analyse() { # only bakeslab/: assertions of cmocka confuse the analyser
   only '^bakeslab/.*\.c$' | xargs -n 1 -P "$JOBS" gcc "${flags[@]}" -fanalyzer -Werror -c -o /dev/null
 }
 
-check 'clang-format (run: clang-format -i FILE)' clang-format --dry-run -Werror "${sources[@]}" "${headers[@]}"
+check 'clang-format -i FILE would change' formatted
 check 'headers compile alone as C17' each_alone 'gcc -x c -std=c17' "${headers[@]}"
 check 'public headers compile alone as C++17' each_alone 'g++ -x c++ -std=c++17' "${public[@]}"
 check 'files too long' long_files
