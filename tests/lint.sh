@@ -68,14 +68,30 @@ machine_paths() { # this checkout's folder, its neighbours, somebody's home
 
 unfinished() { ! git grep -nIwE 'TODO|FIXME|XXX|HACK' -- '*.c' '*.h' '*.inc' '*.pov' '*.mk' '*.sh' '*.bats' Makefile ':!tests/lint.sh'; }
 
+# One file with what it may assume; slab_error.c defines what the others assume.
+assuming() { # COMMAND... -- FILE: runs COMMAND with FILE put in place of FILE
+  local file=$1 words=()
+  shift
+  for word in "$@"; do words+=("${word/#FILE/$file}"); done
+  [ "$file" = bakeslab/slab_error.c ] || words+=(-include tests/lint_assume.h)
+  "${words[@]}" 2>&1
+}
+export -f assuming
+
 tidy() {
-  printf '%s\0' "${sources[@]}" | xargs -0 -P "$JOBS" -I FILE clang-tidy --quiet FILE -- "${flags[@]}" -Itests 2>&1 |
-    grep -vE '^[0-9]+ warnings? generated|^Suppressed |^Use -header-filter'
-  return "$((PIPESTATUS[1] != 0))"
+  printf '%s\n' "${sources[@]}" | xargs -P "$JOBS" -I NAME bash -c 'assuming "$@"' _ NAME \
+    clang-tidy --quiet FILE -- "${flags[@]}" -Itests >"$work/tidy"
+  local bad=$?
+  # Without the steps that lead there, and once where a header is to blame.
+  grep -A 2 -E '(error|warning):' "$work/tidy" | grep -vE '(note|Suppressed):' | awk '!seen[$0]++'
+  return "$bad"
 }
 
-analyse() { # only bakeslab/: assertions of cmocka confuse the analyser
-  only '^bakeslab/.*\.c$' | xargs -n 1 -P "$JOBS" gcc "${flags[@]}" -fanalyzer -Werror -c -o /dev/null
+# Only bakeslab/: assertions of cmocka confuse the analyser. Leaks are left to
+# clang-tidy and the sanitizers: gcc 12 sees one in each `p->x = malloc(n)`.
+analyse() {
+  only '^bakeslab/.*\.c$' | xargs -P "$JOBS" -I NAME bash -c 'assuming "$@"' _ NAME \
+    gcc "${flags[@]}" -O0 -fanalyzer -Wno-analyzer-malloc-leak -fdiagnostics-path-format=none -Werror -c FILE -o /dev/null
 }
 
 check 'clang-format -i FILE would change' formatted
