@@ -35,7 +35,7 @@ lint: $(B)/flags ## check formatting, static analysis and house rules
 sanitize: ## run unit and command-line tests with address and undefined behaviour sanitizers
 	+@$(MAKE) --no-print-directory config=sanitize T='unit/% cli/%' test
 
-$(TEST_SOURCES:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests
+$(TEST_SOURCES:%.c=$(B)/%.o) $(TEST_HELPERS:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests
 
 define test_program
 $(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(filter $(dir $(1))%,$(TEST_HELPERS))) $(B)/libbake.a $(B)/libslab.a

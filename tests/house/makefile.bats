@@ -87,6 +87,36 @@ apt-get install -y -q --no-install-recommends bats povray" ]
   [[ $output == *"apt could not install libtiff-dev"* ]]
 }
 
+# A PATH with what the Makefile needs and nothing else.
+bare_path() {
+  bare=$BATS_TEST_TMPDIR/bare
+  mkdir -p "$bare"
+  for tool in sh bash env make sed grep mkdir awk find nproc tail cat id uname; do
+    ln -s "$(command -v "$tool")" "$bare/$tool"
+  done
+  PATH=$bare
+}
+
+@test "where there is no apt, setup names what is needed in one line" {
+  bare_path
+  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
+  [ "$status" -ne 0 ]
+  [[ ${lines[0]} == *"no apt here: install a C compiler"*libtiff*OpenEXR*jansson*xxhash*POV-Ray* ]]
+}
+
+@test "neither root nor sudo: setup says what to ask for" {
+  fake_debian
+  bare_path
+  rm "$bare/id"
+  printf '#!/bin/sh\necho 1000\n' >"$bare/id"
+  /bin/chmod +x "$bare/id"
+  /bin/cp "$fake/apt-get" "$fake/dpkg-query" "$bare"
+  MISSING='povray' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
+  [ "$status" -ne 0 ]
+  [[ $output == *"neither root nor sudo: as root, apt-get install povray"* ]]
+  [ ! -e "$fake/called" ]
+}
+
 @test "each goal asks for its own packages only" {
   run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" -n demo
   [[ $output == *povray* && $output != *libcmocka-dev* ]]
