@@ -91,7 +91,7 @@ apt-get install -y -q --no-install-recommends bats povray" ]
 bare_path() {
   bare=$BATS_TEST_TMPDIR/bare
   mkdir -p "$bare"
-  for tool in sh bash env make sed grep mkdir awk find nproc tail cat id uname; do
+  for tool in sh bash env make sed grep mkdir awk find nproc tail cat rm id uname; do
     ln -s "$(command -v "$tool")" "$bare/$tool"
   done
   PATH=$bare
@@ -106,11 +106,11 @@ bare_path() {
 
 @test "neither root nor sudo: setup says what to ask for" {
   fake_debian
+  rm "$fake/sudo"
+  printf '#!/bin/sh\necho 1000\n' >"$fake/id"
+  chmod +x "$fake/id"
   bare_path
-  rm "$bare/id"
-  printf '#!/bin/sh\necho 1000\n' >"$bare/id"
-  /bin/chmod +x "$bare/id"
-  /bin/cp "$fake/apt-get" "$fake/dpkg-query" "$bare"
+  PATH=$fake:$bare
   MISSING='povray' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
   [ "$status" -ne 0 ]
   [[ $output == *"neither root nor sudo: as root, apt-get install povray"* ]]
