@@ -27,3 +27,16 @@ $(B)/man/%.5: bakeslab/%.5.scd | $(SETUP_FIRST)
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
 	$(Q)SOURCE_DATE_EPOCH=$(DATE) scdoc <$< >$@
+
+# Found by the program relative to itself, built or installed alike.
+READS := $(B)/lib/canned/reads.so
+$(READS): bakeslab/preload/reads.c | $(SETUP_FIRST)
+	@mkdir -p $(@D)
+	$(call say,CC,$@)
+	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -fPIC -shared $< -ldl -o $@
+
+$(B)/share/canned/include-pov:
+	@mkdir -p $(@D)
+	$(Q)ln -sfn $(CURDIR)/include-pov $@
+
+$(BIN): | $(READS) $(B)/share/canned/include-pov

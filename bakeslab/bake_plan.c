@@ -1,0 +1,226 @@
+/* bake_plan.c - see bake_plan.h. */
+#include "bake_plan.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A POV-Ray process costs 0.4 s of waiting whatever it renders, and finds a mesh
+ * camera's face by a linear search through the meshes: batches of a few seconds. */
+enum { BATCH_RAYS = 1 << 21, BATCH_CAMERAS = 1024, BATCH_TILES = 4096, BATCH_FRAMES = 512 };
+
+enum { TILE = 16 };
+
+/* ---- Tiles ---- */
+
+/* Width of a tile along an axis. */
+static int tile_size(const struct bake_tiles *tiles, int page, int axis) {
+  bool covered = tiles->transposed ? axis == SLAB_U || axis == SLAB_V : axis == SLAB_S || axis == SLAB_T;
+  int n = tiles->slabs[page].samples[axis];
+  if (!covered) return 1;
+  return n < 2 * TILE ? n : TILE;
+}
+
+void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES]) {
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    int size = tile_size(tiles, page, axis);
+    grid[axis] = (tiles->slabs[page].samples[axis] + size - 1) / size;
+  }
+}
+
+enum slab_result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages, bool transposed, struct slab_error *error) {
+  *tiles = (struct bake_tiles){.pages = pages, .slabs = slabs, .transposed = transposed};
+  tiles->first_tile = calloc((size_t)pages + 1, sizeof *tiles->first_tile);
+  if (!tiles->first_tile) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  for (int page = 0; page < pages; ++page) {
+    int grid[SLAB_AXES];
+    bake_tile_grid(tiles, page, grid);
+    int64_t count = (int64_t)grid[0] * grid[1] * grid[2] * grid[3];
+    if (count > INT32_MAX / 2 - tiles->first_tile[page])
+      return slab_fail(error, SLAB_BAD, "too many samples; choose fewer with --uv or --st");
+    tiles->first_tile[page + 1] = tiles->first_tile[page] + (int)count;
+  }
+  return SLAB_OK;
+}
+
+void bake_tiles_free(struct bake_tiles *tiles) {
+  free(tiles->first_tile);
+  *tiles = (struct bake_tiles){0};
+}
+
+int bake_tile_count(const struct bake_tiles *tiles) {
+  return tiles->first_tile[tiles->pages];
+}
+
+struct bake_box bake_tile_box(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]) {
+  struct bake_box box = {.page = page};
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    int size = tile_size(tiles, page, axis), n = tiles->slabs[page].samples[axis];
+    box.first[axis] = at[axis] * size;
+    box.size[axis] = box.first[axis] + size > n ? n - box.first[axis] : size;
+  }
+  return box;
+}
+
+int bake_tile_number(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]) {
+  int grid[SLAB_AXES];
+  bake_tile_grid(tiles, page, grid);
+  int n = ((at[SLAB_V] * grid[SLAB_U] + at[SLAB_U]) * grid[SLAB_T] + at[SLAB_T]) * grid[SLAB_S] + at[SLAB_S];
+  return tiles->first_tile[page] + n;
+}
+
+int bake_tile_at(const struct bake_tiles *tiles, int page, const int sample[SLAB_AXES]) {
+  int at[SLAB_AXES];
+  for (int axis = 0; axis < SLAB_AXES; ++axis) at[axis] = sample[axis] / tile_size(tiles, page, axis);
+  return bake_tile_number(tiles, page, at);
+}
+
+/* ---- Rounds ---- */
+
+void bake_round_free(struct bake_round *round) {
+  free(round->boxes);
+  free(round->units);
+  free(round->batches);
+  *round = (struct bake_round){0};
+}
+
+/* Makes room for one more element in an array that grows by doubling. */
+static void *grow(void *array, size_t count, size_t size) {
+  if (count & (count - 1)) return array; /* not a power of two: there is room */
+  return realloc(array, (count ? 2 * count : 1) * size);
+}
+
+static bool add_box(struct bake_round *round, struct bake_box box) {
+  struct bake_box *grown = grow(round->boxes, round->box_count, sizeof box);
+  if (!grown) return false;
+  round->boxes = grown;
+  round->boxes[round->box_count++] = box;
+  return true;
+}
+
+static bool add_unit(struct bake_round *round, int box, int pass) {
+  struct bake_unit *grown = grow(round->units, round->unit_count, sizeof *grown);
+  if (!grown) return false;
+  round->units = grown;
+  round->units[round->unit_count++] = (struct bake_unit){box, pass};
+  return true;
+}
+
+/* All passes from `from` to before `to` of the boxes from `box` on, pairs together. */
+static bool add_passes(struct bake_round *round, size_t box, int from, int to) {
+  for (int pair = from; pair < to; pair += 2)
+    for (size_t n = box; n < round->box_count; ++n)
+      for (int pass = pair; pass < pair + 2 && pass < to; ++pass)
+        if (!add_unit(round, (int)n, pass)) return false;
+  return true;
+}
+
+static bool same_shape(const struct bake_box *a, const struct bake_box *b) {
+  return !memcmp(a->size, b->size, sizeof a->size);
+}
+
+/* Whether a unit may join the batch. Frames of an animation are all of one shape. */
+static bool fits(const struct bake_round *round, const struct bake_batch *batch, size_t unit, enum bake_form form) {
+  if (!batch->count) return true;
+  const struct bake_box *box = &round->boxes[round->units[unit].box];
+  const struct bake_box *first = &round->boxes[round->units[batch->first].box];
+  bool second_of_pair = round->units[unit].pass % 2 && round->units[unit - 1].box == round->units[unit].box;
+  if (second_of_pair) return true;
+  if (form != BAKE_MESH) return batch->count < BATCH_FRAMES && batch->rays < BATCH_RAYS && same_shape(box, first);
+  return batch->rays < BATCH_RAYS && (batch->count < BATCH_CAMERAS || (batch->rays < BATCH_RAYS / 2 && batch->count < BATCH_TILES));
+}
+
+static enum slab_result cut_batches(struct bake_round *round, enum bake_form form, struct slab_error *error) {
+  for (size_t unit = 0; unit < round->unit_count; ++unit) {
+    struct bake_batch *last = round->batch_count ? &round->batches[round->batch_count - 1] : NULL;
+    if (!last || !fits(round, last, unit, form)) {
+      struct bake_batch *grown = grow(round->batches, round->batch_count, sizeof *grown);
+      if (!grown) return slab_fail(error, SLAB_MEMORY, "out of memory");
+      round->batches = grown;
+      last = &round->batches[round->batch_count++];
+      *last = (struct bake_batch){.first = unit};
+    }
+    ++last->count;
+    last->rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
+  }
+  return SLAB_OK;
+}
+
+/* One box a camera, covering whole views (or, transposed, whole directions). */
+static bool add_whole_boxes(const struct bake_tiles *tiles, struct bake_round *round) {
+  for (int page = 0; page < tiles->pages; ++page) {
+    const int *n = tiles->slabs[page].samples;
+    int slow = tiles->transposed ? n[SLAB_T] : n[SLAB_V], fast = tiles->transposed ? n[SLAB_S] : n[SLAB_U];
+    for (int y = 0; y < slow; ++y)
+      for (int x = 0; x < fast; ++x) {
+        struct bake_box box = {page, {x, y, 0, 0}, {1, 1, n[SLAB_S], n[SLAB_T]}};
+        if (tiles->transposed) box = (struct bake_box){page, {0, 0, x, y}, {n[SLAB_U], n[SLAB_V], 1, 1}};
+        if (!add_box(round, box)) return false;
+      }
+  }
+  return true;
+}
+
+enum slab_result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form, struct bake_round *round, struct slab_error *error) {
+  *round = (struct bake_round){0};
+  if (!add_whole_boxes(tiles, round) || !add_passes(round, 0, 0, passes))
+    return slab_fail(error, SLAB_MEMORY, "out of memory");
+  return cut_batches(round, form, error);
+}
+
+/* Covers the tiles of one camera that want more than `passes` by rectangles: runs of
+ * tiles along a row, joined with a run of the same extent in the row before. */
+static bool add_covering(const struct bake_tiles *tiles, int page, int camera_at[SLAB_AXES], const int *wanted, int passes, struct bake_round *round) {
+  int x_axis = tiles->transposed ? SLAB_U : SLAB_S, y_axis = tiles->transposed ? SLAB_V : SLAB_T;
+  int grid[SLAB_AXES];
+  bake_tile_grid(tiles, page, grid);
+  size_t first = round->box_count;
+  for (int y = 0; y < grid[y_axis]; ++y)
+    for (int x = 0; x < grid[x_axis]; ++x) {
+      camera_at[x_axis] = x, camera_at[y_axis] = y;
+      if (wanted[bake_tile_number(tiles, page, camera_at)] <= passes) continue;
+      struct bake_box box = bake_tile_box(tiles, page, camera_at);
+      for (; x + 1 < grid[x_axis]; ++x) {
+        camera_at[x_axis] = x + 1;
+        if (wanted[bake_tile_number(tiles, page, camera_at)] <= passes) break;
+        box.size[x_axis] += bake_tile_box(tiles, page, camera_at).size[x_axis];
+      }
+      size_t above = first;
+      while (above < round->box_count && !(round->boxes[above].first[x_axis] == box.first[x_axis] && round->boxes[above].size[x_axis] == box.size[x_axis] && round->boxes[above].first[y_axis] + round->boxes[above].size[y_axis] == box.first[y_axis]))
+        ++above;
+      if (above < round->box_count)
+        round->boxes[above].size[y_axis] += box.size[y_axis];
+      else if (!add_box(round, box))
+        return false;
+    }
+  return true;
+}
+
+static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int passes, struct bake_round *round) {
+  int slow_axis = tiles->transposed ? SLAB_T : SLAB_V, fast_axis = tiles->transposed ? SLAB_S : SLAB_U;
+  for (int page = 0; page < tiles->pages; ++page) {
+    int grid[SLAB_AXES];
+    bake_tile_grid(tiles, page, grid);
+    for (int y = 0; y < grid[slow_axis]; ++y)
+      for (int x = 0; x < grid[fast_axis]; ++x) {
+        int at[SLAB_AXES] = {0};
+        at[fast_axis] = x, at[slow_axis] = y;
+        if (!add_covering(tiles, page, at, wanted, passes, round)) return false;
+      }
+  }
+  return true;
+}
+
+enum slab_result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, int pilot, enum bake_form form, struct bake_round *round, struct slab_error *error) {
+  *round = (struct bake_round){0};
+  int most = pilot;
+  for (int tile = 0; tile < bake_tile_count(tiles); ++tile)
+    if (wanted[tile] > most) most = wanted[tile];
+  for (int passes = pilot; passes < most; passes *= 2) {
+    size_t box = round->box_count;
+    int to = 2 * passes < most ? 2 * passes : most;
+    if (!add_stage(tiles, wanted, passes, round) || !add_passes(round, box, passes, to))
+      return slab_fail(error, SLAB_MEMORY, "out of memory");
+  }
+  return cut_batches(round, form, error);
+}

@@ -1,0 +1,176 @@
+/* bake_scene.c - see bake_scene.h. */
+#include "bake_scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of a mesh_camera image. Narrow images keep neighbouring rays in POV-Ray's 32 x 32
+ * pixel blocks close together; a mesh's faces simply run on from row to row. */
+enum { IMAGE_WIDTH = 256 };
+
+static const struct bake_box *unit_box(const struct bake_round *round, size_t unit) {
+  return &round->boxes[round->units[unit].box];
+}
+
+static void unit_camera(const struct bake_look *look, const struct slab *slabs, const struct bake_round *round, size_t unit, struct bake_camera *camera) {
+  double offset[SLAB_AXES];
+  const struct bake_box *box = unit_box(round, unit);
+  bake_offset(round->units[unit].pass, look->centre, offset);
+  bake_camera(&slabs[box->page], box, offset, camera);
+}
+
+static void print_vector(FILE *out, const double vector[3], double factor) {
+  fprintf(out, "<%.17g,%.17g,%.17g>", factor * vector[0], factor * vector[1], factor * vector[2]);
+}
+
+/* ---- Brightness ---- */
+
+/* The whole picture brightened: every camera looks at the lamp through a filter that
+ * multiplies radiance. It lies just outside each uv plane, and the cameras just outside
+ * of it, so that nothing in the lamp can touch it; only cameras see it. */
+static double filter_distance(const struct slab *slab) {
+  double length = sqrt(slab->u[0] * slab->u[0] + slab->u[1] * slab->u[1] + slab->u[2] * slab->u[2]);
+  return 2e-5 * fmax(1, length);
+}
+
+static void print_filter(FILE *out, double gain, const struct slab *slab) {
+  /* Counter-clockwise as seen along the normal in a frame with u x v = n. */
+  static const double at[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+  fputs("polygon { 5, ", out);
+  for (int c = 0; c < 5; ++c) {
+    double corner[3];
+    for (int axis = 0; axis < 3; ++axis)
+      corner[axis] = slab->center[axis] + 0.51 * (at[c][0] * slab->u[axis] + at[c][1] * slab->v[axis]) +
+                     0.5 * filter_distance(slab) * slab->normal[axis];
+    print_vector(out, corner, 1);
+  }
+  fprintf(out,
+          "\n  pigment { rgb %.17g filter 1 } finish { ambient 0 diffuse 0 emission 0 }\n"
+          "  no_shadow no_radiosity no_reflection photons { pass_through } }\n",
+          gain);
+}
+
+static void print_head(FILE *out, const struct bake_look *look, const struct slab *slabs, int pages, const struct povray_job *job) {
+  fprintf(out, "// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version 3.7;\n#declare Canned_Bake_Effects = \"%s\";\n", look->effects);
+  if (look->interreflection) /* radiosity's pretrace goes down to about two pixels */
+    fprintf(out, "#declare Canned_Bake_Pretrace = 2/%d;\n", job->height > job->width ? job->height : job->width);
+  fputs("#include \"canned_bake.inc\"\n#include \"lamp.pov\"\n", out);
+  if (look->gain != 1) {
+    fprintf(out, "global_settings { adc_bailout %.17g }\n", fmin(1, look->gain) / 255);
+    for (int page = 0; page < pages; ++page) print_filter(out, look->gain, &slabs[page]);
+  }
+}
+
+/* ---- Cameras ---- */
+
+static void print_matrix(FILE *out, const struct bake_look *look, const struct slab *slab, const struct bake_camera *camera) {
+  double rows[4][3];
+  bake_camera_matrix(slab, camera, rows);
+  if (look->gain != 1)
+    for (int axis = 0; axis < 3; ++axis) rows[3][axis] += filter_distance(slab) * slab->normal[axis];
+  fputs("matrix <", out);
+  for (int n = 0; n < 12; ++n) fprintf(out, "%s%.17g", n ? "," : "", rows[n / 3][n % 3]);
+  fputs("> }\n", out);
+}
+
+/* One mesh_camera; each shape of box has its own mesh of directions. */
+static void print_mesh_camera(FILE *out, const struct bake_look *look, const struct slab *slabs, const struct bake_round *round, const struct bake_batch *batch) {
+  int width = 0, height = 0;
+  for (size_t n = 0; n < batch->count; ++n) {
+    const int *size = unit_box(round, batch->first + n)->size;
+    if (size[SLAB_S] == width && size[SLAB_T] == height) continue;
+    width = size[SLAB_S], height = size[SLAB_T];
+    fprintf(out, "#ifndef (D%dx%d) #declare D%dx%d = Canned_Directions(%d, %d, %.17g) #end\n", width,
+            height, width, height, width, height, bake_mesh_epsilon(width, height));
+  }
+  fputs("camera { mesh_camera { 1 1\n", out);
+  for (size_t n = 0; n < batch->count; ++n) {
+    struct bake_camera camera;
+    unit_camera(look, slabs, round, batch->first + n, &camera);
+    fprintf(out, "mesh { D%dx%d ", camera.width, camera.height);
+    print_matrix(out, look, &slabs[unit_box(round, batch->first + n)->page], &camera);
+  }
+  fputs("} location 0 direction z }\n", out);
+}
+
+/* An animation: frame n looks through camera n. The image's top is the small end of
+ * the rows' axis; POV-Ray's sheared cameras are exact (it warns). */
+static void print_animation(FILE *out, const struct bake_look *look, const struct slab *slabs, const struct bake_round *round, const struct bake_batch *batch) {
+  fputs("#switch (max(1, frame_number))\n", out);
+  for (size_t n = 0; n < batch->count; ++n) {
+    struct bake_camera camera;
+    unit_camera(look, slabs, round, batch->first + n, &camera);
+    const struct slab *slab = &slabs[unit_box(round, batch->first + n)->page];
+    if (look->gain != 1)
+      for (int axis = 0; axis < 3; ++axis) camera.origin[axis] += filter_distance(slab) * slab->normal[axis];
+    /* Directions are -(toward + across + down); positions are origin + across + down. */
+    double sign = camera.orthographic ? 1 : -1;
+    fprintf(out, "#case (%zu) camera { %s location ", n + 1, camera.orthographic ? "orthographic" : "perspective");
+    print_vector(out, camera.origin, 1);
+    fputs(" direction ", out);
+    print_vector(out, camera.toward, -1);
+    fputs(" right ", out);
+    print_vector(out, camera.across, sign);
+    fputs(" up ", out);
+    print_vector(out, camera.down, -sign);
+    fputs(" } #break\n", out);
+  }
+  fputs("#end\n", out);
+}
+
+void bake_scene_size(const struct bake_look *look, const struct bake_round *round, const struct bake_batch *batch, struct povray_job *job) {
+  if (look->form == BAKE_MESH) {
+    job->frames = 1;
+    job->width = IMAGE_WIDTH;
+    job->height = (int)((batch->rays + IMAGE_WIDTH - 1) / IMAGE_WIDTH) + look->defect_rows;
+    return;
+  }
+  const int *size = unit_box(round, batch->first)->size;
+  bool transposed = look->form == BAKE_TRANSPOSED;
+  job->frames = (int)batch->count;
+  job->width = transposed ? size[SLAB_U] : size[SLAB_S];
+  job->height = transposed ? size[SLAB_V] : size[SLAB_T];
+}
+
+char *bake_scene_text(const struct bake_look *look, const struct slab *slabs, int pages, const struct bake_round *round, const struct bake_batch *batch) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  struct povray_job job;
+  bake_scene_size(look, round, batch, &job);
+  print_head(out, look, slabs, pages, &job);
+  if (look->form == BAKE_MESH)
+    print_mesh_camera(out, look, slabs, round, batch);
+  else
+    print_animation(out, look, slabs, round, batch);
+  if (fclose(out) != 0) {
+    free(text);
+    return NULL;
+  }
+  return text;
+}
+
+/* ---- Reading ---- */
+
+static enum slab_result check_finite(const float *rgb, size_t rays, const struct povray_job *job, struct slab_error *error) {
+  for (size_t n = 0; n < 3 * rays; ++n)
+    if (!isfinite(rgb[n]))
+      return slab_fail(error, SLAB_BAD, "%s: ray %zu of this batch is %s: brighter than the half-float pictures of POV-Ray can hold; bake with a smaller --gain", job->directory, n / 3, isnan(rgb[n]) ? "not a number" : "infinite");
+  return SLAB_OK;
+}
+
+enum slab_result bake_scene_read(const struct bake_look *look, const struct bake_batch *batch, const struct povray_job *job, float *rgb, struct slab_error *error) {
+  size_t skip = look->form == BAKE_MESH ? (size_t)look->defect_rows * (size_t)job->width * 3 : 0;
+  size_t rays = look->form == BAKE_MESH ? batch->rays : (size_t)job->width * (size_t)job->height;
+  for (int frame = 0; frame < job->frames; ++frame) {
+    struct slab_picture picture = {0};
+    enum slab_result result = povray_read_frame(job, frame, &picture, error);
+    if (result) return result;
+    memcpy(rgb + 3 * rays * (size_t)frame, picture.rgb + skip, 3 * rays * sizeof *rgb);
+    slab_picture_free(&picture);
+  }
+  return check_finite(rgb, batch->rays, job, error);
+}

@@ -1,0 +1,65 @@
+/* files.c - see files.h. */
+#include "files.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+char *files_join(const char *directory, const char *name) {
+  char *path = NULL;
+  if (asprintf(&path, "%s/%s", directory, name) < 0) return NULL;
+  return path;
+}
+
+char *files_read(const char *directory, const char *name) {
+  char *path = files_join(directory, name);
+  char *text = NULL;
+  size_t size = 0;
+  FILE *file = path ? fopen(path, "re") : NULL;
+  if (file) {
+    /* No text contains a 0: this reads all of it. */
+    if (getdelim(&text, &size, 0, file) < 0 && text) text[0] = 0;
+    fclose(file);
+  }
+  free(path);
+  return text;
+}
+
+enum slab_result files_write(const char *directory, const char *name, const char *text,
+                             struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  char *path = files_join(directory, name);
+  if (!path) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  FILE *file = fopen(path, "we");
+  bool good = file && fputs(text, file) >= 0;
+  int reason = errno;
+  if (file && fclose(file) != 0 && good) {
+    good = false;
+    reason = errno;
+  }
+  if (!good) result = slab_fail(error, SLAB_IO, "%s: %s", path, strerror(reason));
+  free(path);
+  return result;
+}
+
+enum slab_result files_make_directory(const char *path, struct slab_error *error) {
+  if (mkdir(path, 0777) == 0) return SLAB_OK;
+  int reason = errno;
+  struct stat status;
+  if (reason == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)) return SLAB_OK;
+  return slab_fail(error, SLAB_IO, "%s: cannot make this folder: %s", path, strerror(reason));
+}
+
+static int remove_one(const char *path, const struct stat *status, int type, struct FTW *where) {
+  (void)status, (void)type, (void)where;
+  remove(path);
+  return 0;
+}
+
+void files_remove_tree(const char *path) {
+  nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}

@@ -1,0 +1,27 @@
+/* files.h - small things with files and folders that the bake needs. */
+#ifndef FILES_H
+#define FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "slab_error.h"
+
+/* Joins a folder and a name into a new string, or NULL; the caller frees it. */
+char *files_join(const char *directory, const char *name);
+
+/* The text of directory/name with a 0 at its end, or NULL; the caller frees it. */
+char *files_read(const char *directory, const char *name);
+
+/* Writes a text and checks that it got to the disk. */
+enum slab_result files_write(const char *directory, const char *name, const char *text,
+                             struct slab_error *error);
+
+/* Makes a folder; one that is there already is fine. */
+enum slab_result files_make_directory(const char *path, struct slab_error *error);
+
+/* Removes a folder and all that is in it, without following links. Whether
+ * anything was left does not matter to callers: it is their own debris. */
+void files_remove_tree(const char *path);
+
+#endif
