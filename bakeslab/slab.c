@@ -11,6 +11,9 @@
  * print it with a few digits. */
 static const double frame_tolerance = 1e-6;
 
+/* Most pixels along a side of the raster: containers add a tile to it. */
+enum { LARGEST_SIDE = INT_MAX / 16 };
+
 static double dot(const double x[3], const double y[3]) {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
@@ -49,8 +52,8 @@ static enum slab_result check_samples(const struct slab *slab, struct slab_error
     if (slab->samples[axis] < 1)
       return slab_fail(error, SLAB_BAD, "samples along %s are %d, must be at least 1", axes[axis],
                        slab->samples[axis]);
-  if (slab->samples[SLAB_U] > INT_MAX / slab->samples[SLAB_S] ||
-      slab->samples[SLAB_V] > INT_MAX / slab->samples[SLAB_T])
+  if (slab->samples[SLAB_U] > LARGEST_SIDE / slab->samples[SLAB_S] ||
+      slab->samples[SLAB_V] > LARGEST_SIDE / slab->samples[SLAB_T])
     return slab_fail(error, SLAB_BAD, "samples %d x %d x %d x %d are too many for one raster",
                      slab->samples[0], slab->samples[1], slab->samples[2], slab->samples[3]);
   return SLAB_OK;

@@ -34,8 +34,8 @@ enum slab_precision slab_file_precision(const struct slab_file *file, int page);
 
 /* Reads view (i,j): Nt rows of Ns pixels of 3 floats. Decodes only the tiles
  * that it touches. */
-enum slab_result slab_file_read_view(struct slab_file *file, int page, int i, int j,
-                                     float *rgb, struct slab_error *error);
+enum slab_result slab_file_read_view(struct slab_file *file, int page, int i, int j, float *rgb,
+                                     struct slab_error *error);
 
 /* Reads a whole page into a slab that the caller frees with slab_free. */
 enum slab_result slab_file_load(struct slab_file *file, int page, struct slab *slab,

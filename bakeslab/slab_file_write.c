@@ -1,0 +1,113 @@
+/* slab_file_write.c - writes slabs into containers, after making sure that the
+ * samples survive it. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "slab_exr.h"
+#include "slab_file.h"
+#include "slab_half.h"
+#include "slab_json.h"
+#include "slab_output.h"
+#include "slab_raster.h"
+#include "slab_tiff.h"
+
+enum {
+  PLAIN_TILE = 64,               /* where a view is no tile */
+  LARGEST_EXR_VIEW = 1024 * 1024 /* pixels; EXR keeps a tile's bytes in 31 bits */
+};
+
+static bool has_suffix(const char *path, const char *suffix) {
+  size_t length = strlen(path), tail = strlen(suffix);
+  return length > tail && !strcasecmp(path + length - tail, suffix);
+}
+
+/* Container by name, and the precision that DEFAULT means there. */
+static enum slab_result choose(const char *path, enum slab_precision *precision, bool *exr,
+                               struct slab_error *error) {
+  *exr = has_suffix(path, ".exr");
+  if (!*exr && !has_suffix(path, ".tif") && !has_suffix(path, ".tiff"))
+    return slab_fail(error, SLAB_BAD, "%s: the name must end in .tif, .tiff or .exr", path);
+  if (*precision == SLAB_PRECISION_DEFAULT)
+    *precision = *exr ? SLAB_PRECISION_FLOAT : SLAB_PRECISION_LOGLUV;
+  if (*exr && *precision == SLAB_PRECISION_LOGLUV)
+    return slab_fail(error, SLAB_BAD,
+                     "%s: EXR cannot hold LogLuv: name it .tif, or use --precision float or half",
+                     path);
+  return SLAB_OK;
+}
+
+/* Why a sample cannot be written, or NULL. */
+static const char *objection(enum slab_precision precision, const float rgb[3]) {
+  if (!isfinite(rgb[0]) || !isfinite(rgb[1]) || !isfinite(rgb[2])) return "is not finite";
+  if (precision == SLAB_PRECISION_HALF)
+    for (int c = 0; c < 3; ++c)
+      if (!slab_half_holds(rgb[c])) return "is beyond half's 65504: use --precision float";
+  if (precision == SLAB_PRECISION_LOGLUV && !slab_tiff_logluv_holds(rgb))
+    return "has a negative luminance, or a colour or luminance that LogLuv cannot hold: use "
+           "--precision float";
+  return NULL;
+}
+
+static enum slab_result check_samples(const char *path, int page, const struct slab *slab,
+                                      enum slab_precision precision, struct slab_error *error) {
+  size_t count = slab_sample_count(slab), width = (size_t)slab_width(slab);
+  for (size_t k = 0; k < count; ++k) {
+    const float *rgb = slab->rgb + 3 * k;
+    const char *why = objection(precision, rgb);
+    if (!why) continue;
+    int x = (int)(k % width), y = (int)(k / width);
+    return slab_fail(error, SLAB_BAD, "%s: page %d: sample (%d, %d, %d, %d) = (%g, %g, %g) %s",
+                     path, page + 1, x / slab->samples[SLAB_S], y / slab->samples[SLAB_T],
+                     x % slab->samples[SLAB_S], y % slab->samples[SLAB_T], (double)rgb[0],
+                     (double)rgb[1], (double)rgb[2], why);
+  }
+  return SLAB_OK;
+}
+
+static enum slab_result describe(const char *path, int page, const struct slab *slab,
+                                 enum slab_precision precision, bool exr,
+                                 struct slab_raster *raster, struct slab_error *error) {
+  struct slab_error why;
+  enum slab_result result = slab_check(slab, &why);
+  if (result == SLAB_OK && !slab->rgb) result = slab_fail(&why, SLAB_BAD, "has no samples");
+  if (result == SLAB_OK)
+    result = slab_json_text(slab, precision == SLAB_PRECISION_LOGLUV ? slab_tiff_white : NULL,
+                            &raster->text, &why);
+  if (result != SLAB_OK)
+    return slab_fail(error, result, "%s: page %d: %s", path, page + 1, why.text);
+  int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
+  bool view_is_tile = ns % 16 == 0 && nt % 16 == 0 && !(exr && ns > LARGEST_EXR_VIEW / nt);
+  raster->width = slab_width(slab);
+  raster->height = slab_height(slab);
+  raster->block_width = view_is_tile ? ns : PLAIN_TILE;
+  raster->block_height = view_is_tile ? nt : PLAIN_TILE;
+  raster->precision = precision;
+  memcpy(raster->white, slab_tiff_white, sizeof raster->white);
+  raster->rgb = slab->rgb;
+  return check_samples(path, page, slab, precision, error);
+}
+
+enum slab_result slab_file_write(const char *path, const struct slab *slabs, int count,
+                                 enum slab_precision precision, struct slab_error *error) {
+  bool exr;
+  struct slab_output output = {0};
+  enum slab_result result = choose(path, &precision, &exr, error);
+  if (result != SLAB_OK) return result;
+  if (count < 1) return slab_fail(error, SLAB_BAD, "%s: there are no slabs to write", path);
+  struct slab_raster *rasters = calloc((size_t)count, sizeof *rasters);
+  if (!rasters) return slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+  for (int page = 0; page < count && result == SLAB_OK; ++page)
+    result = describe(path, page, &slabs[page], precision, exr, &rasters[page], error);
+  if (result == SLAB_OK) result = slab_output_begin(&output, path, error);
+  if (result == SLAB_OK)
+    result = exr ? slab_exr_write_parts(&output, rasters, count, "lightslab", error)
+                 : slab_tiff_write(&output, rasters, count, error);
+  if (result == SLAB_OK) result = slab_output_commit(&output, error);
+  slab_output_abandon(&output);
+  for (int page = 0; page < count; ++page) free(rasters[page].text);
+  free(rasters);
+  return result;
+}
