@@ -1,0 +1,200 @@
+/* cmd_include.c - bakeslab include: a slab as an include that lights any
+ * POV-Ray scene. */
+#include <ctype.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli.h"
+#include "sheet.h"
+#include "slab_file.h"
+#include "slab_output.h"
+
+static const char help_text[] =
+    "Writes LAMP.inc, an include file for stock POV-Ray 3.7, and beside it the image LAMP.exr "
+    "that it reads, which light any scene with the slab."
+    "\v"
+    "In a scene:\n"
+    "\n"
+    "  #include \"desk_lamp.inc\"\n"
+    "  object { Desk_Lamp_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
+    "\n"
+    "The macro is called after the slab; Scale and Gain are its arguments. The header of the "
+    "include tells what else may be set, and the error of each number of lights.\n"
+    "\n"
+    "Examples:\n"
+    "  bakeslab include desk_lamp.tif -o desk_lamp.inc\n"
+    "  bakeslab include desk_lamp.tif -o small.inc --lights 4\n"
+    "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light";
+
+struct arguments {
+  const char *slab;
+  const char *output;
+  const char *name;
+  int lights;
+};
+
+static const struct argp_option options[] = {
+    {"output", 'o', "LAMP.inc", 0, "the include to write; its image gets the ending .exr", 0},
+    {"mode", 'm', "MODE", 0, "kind of light: sheet (exact; the default)", 0},
+    {"lights", 'l', "N", 0, "at most N lights an axis (default: one on each uv sample)", 0},
+    {"name", 'n', "NAME", 0, "call the lamp NAME rather than what the slab says", 0},
+    {0}};
+
+static error_t parse_option(int key, char *value, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  int size[2];
+  switch (key) {
+  case 'o':
+    arguments->output = value;
+    return 0;
+  case 'm':
+    if (strcmp(value, "sheet")) argp_error(state, "--mode %s: only sheet is there", value);
+    return 0;
+  case 'l':
+    if (!cli_parse_size(value, size) || size[0] != size[1])
+      argp_error(state, "--lights %s: must be a whole number from 1", value);
+    arguments->lights = size[0];
+    return 0;
+  case 'n':
+    arguments->name = value;
+    return 0;
+  case ARGP_KEY_ARG:
+    if (arguments->slab) argp_error(state, "%s: one slab at a time", value);
+    arguments->slab = value;
+    return 0;
+  case ARGP_KEY_END:
+    if (!arguments->slab) argp_error(state, "no slab given");
+    if (!arguments->output) argp_error(state, "no output given; add -o LAMP.inc");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* desk_lamp becomes Desk_Lamp. POV-Ray's identifiers have at most 40
+ * characters, and the longest suffix that we add is _Canned_Inc_Temp. */
+enum { NAME_SIZE = 40 - 16 + 1 };
+
+static enum slab_result capitalise(const char *name, char capitalised[NAME_SIZE],
+                                   struct slab_error *error) {
+  size_t length = strlen(name);
+  int good = length > 0 && isalpha((unsigned char)name[0]);
+  for (size_t k = 0; k < length; ++k)
+    good = good && (isalnum((unsigned char)name[k]) || name[k] == '_');
+  if (!good)
+    return slab_fail(error, SLAB_BAD,
+                     "the name \"%s\" is no identifier (letters, digits, _); give one with --name",
+                     name);
+  if (length >= NAME_SIZE)
+    return slab_fail(error, SLAB_BAD,
+                     "the name \"%s\" is longer than %d characters; give a shorter one with --name",
+                     name, NAME_SIZE - 1);
+  for (size_t k = 0; k <= length; ++k) {
+    int first = k == 0 || name[k - 1] == '_';
+    capitalised[k] = first ? (char)toupper((unsigned char)name[k]) : name[k];
+  }
+  return SLAB_OK;
+}
+
+static const char *base_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+/* "LAMP.exr" for "LAMP.inc", allocated; NULL without memory. */
+static char *image_path(const char *include) {
+  char *path = strdup(include);
+  if (path) memcpy(path + strlen(path) - 4, ".exr", 4);
+  return path;
+}
+
+/* What the lamp script said about the visible lamp, or NULL. Allocated. */
+static char *housing_text(const struct slab *slab) {
+  if (!slab->json) return NULL;
+  json_t *page = json_loads(slab->json, 0, NULL);
+  const char *text =
+      json_string_value(json_object_get(json_object_get(page, "provenance"), "housing"));
+  char *copy = text ? strdup(text) : NULL;
+  json_decref(page);
+  return copy;
+}
+
+/* The include waits under its temporary name until the image is in place. */
+static enum slab_result write_files(const struct sheet *sheet, const struct sheet_text *text,
+                                    const char *include, const char *image,
+                                    struct slab_error *error) {
+  struct slab_output output = {0};
+  char *content = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&content, &size);
+  if (!stream) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  sheet_print(sheet, text, stream);
+  enum slab_result result = SLAB_OK;
+  if (fclose(stream) != 0) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (result == SLAB_OK) result = slab_output_begin(&output, include, error);
+  if (result == SLAB_OK && slab_output_write(&output, content, size, 0) != 0)
+    result = slab_fail(error, SLAB_IO, "%s: %m", include);
+  if (result == SLAB_OK) result = slab_exr_write(image, &sheet->picture, 1, text->command, error);
+  if (result == SLAB_OK) {
+    result = slab_output_commit(&output, error);
+    if (result != SLAB_OK) unlink(image);
+  }
+  slab_output_abandon(&output);
+  free(content);
+  return result;
+}
+
+/* Prefixes the message with the slab's path. */
+static enum slab_result blame(const char *path, enum slab_result result, struct slab_error *error) {
+  if (result == SLAB_OK) return result;
+  struct slab_error reason = *error;
+  return slab_fail(error, result, "%s: %s", path, reason.text);
+}
+
+static enum slab_result include_slab(const struct arguments *arguments, struct slab_error *error) {
+  struct slab *slabs = NULL;
+  int count = 0;
+  struct sheet sheet = {0};
+  char name[NAME_SIZE];
+  char *image = image_path(arguments->output), *housing = NULL;
+  enum slab_result result = SLAB_OK;
+  if (!image) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (result == SLAB_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
+  if (result == SLAB_OK) {
+    result = capitalise(arguments->name ? arguments->name : slabs[0].name, name, error);
+    if (result == SLAB_OK) result = sheet_make(slabs, count, arguments->lights, &sheet, error);
+    result = blame(arguments->slab, result, error);
+  }
+  if (result == SLAB_OK) {
+    housing = housing_text(&slabs[0]);
+    struct sheet_text text = {.name = name,
+                              .file = base_name(arguments->output),
+                              .image = base_name(image),
+                              .command = cli_command_line(),
+                              .housing = housing};
+    result = write_files(&sheet, &text, arguments->output, image, error);
+  }
+  free(housing);
+  free(image);
+  sheet_free(&sheet);
+  slab_file_free_all(slabs, count);
+  return result;
+}
+
+int cmd_include(int argc, char **argv) {
+  struct arguments arguments = {0};
+  static const struct argp argp = {options, parse_option, "SLAB -o LAMP.inc", help_text, NULL,
+                                   NULL,    NULL};
+  error_t status = argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+  if (status != 0) return CLI_USAGE;
+  size_t length = strlen(arguments.output);
+  if (length < 5 || strcmp(arguments.output + length - 4, ".inc")) {
+    cli_complain("%s: the output must end in .inc; its image gets .exr", arguments.output);
+    return CLI_USAGE;
+  }
+  struct slab_error error;
+  if (include_slab(&arguments, &error) != SLAB_OK) return cli_fail(&error);
+  return CLI_OK;
+}

@@ -1,0 +1,16 @@
+/* sheet_error.h - what a sum over few lights gets wrong.
+ *
+ * Compares the irradiance on planes parallel to the aperture: the sum over a
+ * level's lights against the integral of the quadrilinear slab. The number of
+ * receivers follows from a bound on the work, about a second for a page. */
+#ifndef SHEET_ERROR_H
+#define SHEET_ERROR_H
+
+#include "sheet.h"
+
+/* Sets `error[]` of each level: root of the mean squared error over the plane,
+ * relative to the root of the mean squared irradiance. */
+enum slab_result sheet_measure(const struct slab *slab, struct sheet_level *levels, int count,
+                               struct slab_error *error);
+
+#endif

@@ -1,0 +1,290 @@
+/* sheet_text.c - the include file: what it is, the lamp's numbers, its macros. */
+#include "sheet.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Relative to the peak: smallest half with full precision, and half of the
+ * smallest above zero. */
+static const double half_normal = 6.1e-5, half_zero = 3e-8;
+
+/* POV-Ray drops what a light adds below this in every channel. */
+static const double dropped = 1e-10;
+
+/* Prints `template` with @ replaced by the lamp's name. */
+static void print_named(const char *template, const char *name, FILE *out) {
+  for (; *template; ++template) {
+    if (*template == '@')
+      fputs(name, out);
+    else
+      putc(*template, out);
+  }
+}
+
+/* A string of SDL: POV-Ray knows \" and \\. */
+static void print_string(const char *text, FILE *out) {
+  putc('"', out);
+  for (; *text; ++text) {
+    if (*text == '"' || *text == '\\') putc('\\', out);
+    putc(*text, out);
+  }
+  putc('"', out);
+}
+
+/* In a comment, a control character must not end the line. */
+static void print_comment(const char *text, FILE *out) {
+  for (; *text; ++text) putc((unsigned char)*text < ' ' ? '?' : *text, out);
+}
+
+static double edge(const struct slab *slab, int axis) {
+  return slab_spacing(slab, axis) * slab->samples[axis];
+}
+
+static const char *flux_unit(const struct slab *slab) {
+  if (!strcmp(slab->radiance_unit, "W/(sr m2)")) return "W";
+  if (!strcmp(slab->radiance_unit, "cd/m2")) return "lm";
+  return "(radiance x m2 sr)";
+}
+
+static void print_usage(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+  const struct slab *slab = &sheet->pages[0].levels[0].views;
+  fprintf(out,
+          "// Persistence of Vision Ray Tracer Scene Include File\n"
+          "// File:    %s, with its image %s beside it\n"
+          "// For:     POV-Ray 3.7 or later; nothing else is needed to render\n"
+          "// Desc:    canned light source %s: a lamp that was simulated once, as the\n"
+          "//          light that leaves its aperture. One point light on each sample of\n"
+          "//          the aperture; a sheet just before them filters each ray.\n"
+          "// Licence: CC0 1.0, public domain: use it as you like\n"
+          "// Made by: ",
+          text->file, text->image, text->name);
+  print_comment(text->command, out);
+  print_named("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include ", "",
+              out);
+  print_string(text->file, out);
+  print_named("\n"
+              "//          object { @_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
+              "//\n"
+              "// @_Canned(Scale, Gain)\n"
+              "//   Scale: size of the lamp at the same radiance. Rotate, translate and mirror\n"
+              "//   the object at will, but never `scale' it: POV-Ray does not scale lights.\n"
+              "//   Gain: multiplies the radiance; a number or a colour.\n",
+              text->name, out);
+  print_named(text->housing
+                  ? "// @_Canned_Case()\n"
+                    "//   The visible lamp, at Scale 1, for pictures in which it is seen.\n"
+                  : "// @_Canned_Case() is not declared: the lamp came without a housing.\n",
+              text->name, out);
+  print_named("//\n"
+              "// Declare before the #include, where the default does not suit:\n"
+              "//   @_Lights      at most so many lights an axis; fewer are faster and less\n"
+              "//                 exact (table below). May be changed between two lamps.\n"
+              "//   @_Sheet_File  path of the image; POV-Ray looks for it in the working\n"
+              "//                 folder and in Library_Path, not beside this file.\n"
+              "//\n",
+              text->name, out);
+  fprintf(out,
+          "// Units:   1 unit is %.6g m at Scale 1; radiance in %s. A surface of pigment P,\n"
+          "//          diffuse 1, shows the radiance P*E/pi; phong and specular highlights\n"
+          "//          are POV-Ray's, which have no 1/pi.\n",
+          slab->metres_per_unit, slab->radiance_unit);
+}
+
+static void print_limits(const struct sheet *sheet, FILE *out) {
+  fputs("// Limits:  Surfaces may not come closer to the aperture than the sheet (column h\n"
+        "//          below). POV-Ray ignores shadows closer than 0.001 units to a light, so\n"
+        "//          there is a smallest Scale; use larger scene units for small lamps.\n"
+        "//          Not in a light_group, not with shadowless, quality +Q4 or better.\n"
+        "//          With an assumed_gamma other than 1.0 the image is still read right,\n"
+        "//          but POV-Ray then adds light up wrongly.\n",
+        out);
+  if (sheet->black_pages)
+    fprintf(out, "//          %d page(s) of the lamp hold no light and were left out.\n",
+            sheet->black_pages);
+}
+
+static void print_faint(const struct sheet_page *page, FILE *out) {
+  if (page->faintest < half_normal)
+    fprintf(out,
+            "//   The faintest radiance is %.2g of the peak; the image rounds below %.2g to\n"
+            "//   multiples of %.1g%s.\n",
+            page->faintest, half_normal, 2 * half_zero,
+            page->faintest < half_zero ? ", and the faintest to nothing" : "");
+  const struct sheet_level *finest = &page->levels[0];
+  const struct slab *views = &finest->views;
+  double reach = sqrt(finest->peak * slab_spacing(views, SLAB_U) * slab_spacing(views, SLAB_V) /
+                      (2 * M_PI * dropped));
+  if (reach < 1e4 * fmax(edge(views, SLAB_U), edge(views, SLAB_V)))
+    fprintf(out,
+            "//   POV-Ray drops what is too faint (1e-10): even the brightest rays of a light\n"
+            "//   end %.2g units away. Raise Gain, and lower the picture's exposure.\n",
+            reach);
+}
+
+static void print_table(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+  for (int p = 0; p < sheet->page_count; ++p) {
+    const struct sheet_page *page = &sheet->pages[p];
+    const struct slab *slab = &page->levels[0].views;
+    double area = slab->metres_per_unit * slab->metres_per_unit;
+    fprintf(out, "//\n// Page %d: aperture %.6g x %.6g, %d x %d slopes %.4g..%.4g x %.4g..%.4g",
+            p + 1, edge(slab, SLAB_U), edge(slab, SLAB_V), slab->samples[SLAB_S],
+            slab->samples[SLAB_T], slab->st_window[0], slab->st_window[1], slab->st_window[2],
+            slab->st_window[3]);
+    if (isfinite(slab->st_distance)) fprintf(out, ", st plane at %.6g", slab->st_distance);
+    fprintf(out, "\n//   flux at Scale 1, Gain 1: %.4g %.4g %.4g %s (red, green, blue)\n",
+            page->flux[0] * area, page->flux[1] * area, page->flux[2] * area, flux_unit(slab));
+    print_faint(page, out);
+    print_named("//   error of the irradiance (relative RMSE) in %, on a plane so many aperture\n"
+                "//   widths away; h and smallest Scale in scene units:\n"
+                "//   lights   lit of        0.5      1      2      4      8        h  Scale >=\n",
+                text->name, out);
+    for (int k = 0; k < page->level_count; ++k) {
+      const struct sheet_level *level = &page->levels[k];
+      const int *lights = level->views.samples;
+      char size[32];
+      snprintf(size, sizeof size, "%dx%d", lights[SLAB_U], lights[SLAB_V]);
+      fprintf(out, "//   %-7s %5d of %-5d ", size, level->lit, lights[SLAB_U] * lights[SLAB_V]);
+      for (int d = 0; d < SHEET_DISTANCES; ++d) fprintf(out, " %6.3g", 100 * level->error[d]);
+      fprintf(out, " %8.3g  %8.3g\n", level->height, sheet_least_height / level->height);
+    }
+  }
+}
+
+static void print_frames(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+  print_named("// One line a page: |u|, |v|, samples and range of s, samples and range of t,\n"
+              "// 1/distance of the st plane, first of its levels.\n",
+              "", out);
+  fprintf(out, "#declare %s_Pages = array[%d][10] {\n", text->name, sheet->page_count);
+  for (int p = 0, first = 0; p < sheet->page_count; ++p) {
+    const struct slab *slab = &sheet->pages[p].levels[0].views;
+    const double *w = slab->st_window;
+    fprintf(out, "  { %.15g, %.15g, %d, %.15g, %.15g, %d, %.15g, %.15g, %.15g, %d }%s\n",
+            edge(slab, SLAB_U), edge(slab, SLAB_V), slab->samples[SLAB_S], w[0], w[1],
+            slab->samples[SLAB_T], w[2], w[3], slab_kappa(slab), first,
+            p + 1 < sheet->page_count ? "," : "");
+    first += sheet->pages[p].level_count;
+  }
+  fprintf(out,
+          "}\n\n// One line a page: directions of u, v and the normal, centre.\n"
+          "#declare %s_Frames = array[%d][4] {\n",
+          text->name, sheet->page_count);
+  for (int p = 0; p < sheet->page_count; ++p) {
+    const struct slab *slab = &sheet->pages[p].levels[0].views;
+    const double *vectors[4] = {slab->u, slab->v, slab->normal, slab->center};
+    const double sizes[4] = {edge(slab, SLAB_U), edge(slab, SLAB_V), 1, 1};
+    fputs("  { ", out);
+    for (int k = 0; k < 4; ++k)
+      fprintf(out, "<%.15g, %.15g, %.15g>%s", vectors[k][0] / sizes[k], vectors[k][1] / sizes[k],
+              vectors[k][2] / sizes[k], k < 3 ? ", " : " }");
+    fputs(p + 1 < sheet->page_count ? ",\n" : "\n", out);
+  }
+  fputs("}\n\n", out);
+}
+
+static void print_levels(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+  int levels = 0, rows = 0;
+  for (int p = 0; p < sheet->page_count; ++p) levels += sheet->pages[p].level_count;
+  fprintf(out,
+          "// One line a level: lights along u and v, left and lower texel of its tiles in\n"
+          "// the image, radiance that the image holds as 1, first of its rows in %s_Lit.\n"
+          "#declare %s_Levels = array[%d][6] {\n",
+          text->name, text->name, levels);
+  for (int p = 0; p < sheet->page_count; ++p)
+    for (int k = 0; k < sheet->pages[p].level_count; ++k) {
+      const struct sheet_level *level = &sheet->pages[p].levels[k];
+      const int *lights = level->views.samples;
+      fprintf(out, "  { %d, %d, %d, %d, %.15g, %d }%s\n", lights[SLAB_U], lights[SLAB_V],
+              level->left, level->bottom, level->peak, rows, --levels ? "," : "");
+      rows += lights[SLAB_V];
+    }
+  fprintf(out,
+          "}\n\n// Which lights are there, a row of u a line: views that are entirely black have\n"
+          "// none.\n#declare %s_Lit = array[%d] {\n",
+          text->name, rows);
+  for (int p = 0; p < sheet->page_count; ++p)
+    for (int k = 0; k < sheet->pages[p].level_count; ++k) {
+      const struct sheet_level *level = &sheet->pages[p].levels[k];
+      int nu = level->views.samples[SLAB_U], nv = level->views.samples[SLAB_V];
+      for (int j = 0; j < nv; ++j)
+        fprintf(out, "  \"%.*s\"%s\n", nu, level->mask + j * nu, --rows ? "," : "");
+    }
+  fputs("}\n\n", out);
+}
+
+/* The image, and a look at its check texels (sheet_image.c): where assumed_gamma
+ * is not 1, POV-Ray changes what it reads unless told a gamma that undoes it. */
+static void print_image(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+  const struct slab_picture *picture = &sheet->picture;
+  print_named(
+      "#if (!file_exists(@_Sheet_File))\n"
+      "  #error concat(\"@_Canned: no image \", @_Sheet_File, \": put it into the scene's\",\n"
+      "    \" folder, or declare @_Sheet_File before the #include\\n\")\n"
+      "#end\n",
+      text->name, out);
+  fprintf(out, "#declare %s_Image_Size = <%d, %d, 0>;\n", text->name, picture->width,
+          picture->height);
+  fprintf(out, "#local Check_ = <%.6f, %.6f, 0>;  // where the image holds %.10g, %.10g, %.10g\n",
+          (sheet->check_left + SHEET_CHECK_SIZE / 2.0) / picture->width,
+          (sheet->check_bottom + SHEET_CHECK_SIZE / 2.0) / picture->height, (double)sheet->check[0],
+          (double)sheet->check[1], (double)sheet->check[2]);
+  print_named(
+      "#declare @_Sheet = pigment { image_map { exr @_Sheet_File interpolate 2 filter all 1 } };\n"
+      "#local Look_ = function { pigment { @_Sheet } };\n"
+      "#local Seen_ = Look_(Check_.x, Check_.y, 0);\n",
+      text->name, out);
+  fprintf(out, "#if (Seen_.red > 0 & Seen_.red < 1 & abs(Seen_.red - %g) > 1e-4)\n",
+          (double)sheet->check[0]);
+  fprintf(out, "  #local Gamma_ = ln(%g)/ln(Seen_.red);  // the scene's assumed_gamma: undo it\n",
+          (double)sheet->check[0]);
+  print_named("  #declare @_Sheet = pigment { image_map { exr @_Sheet_File gamma Gamma_\n"
+              "    interpolate 2 filter all 1 } };\n"
+              "  #local Look_ = function { pigment { @_Sheet } };\n"
+              "  #local Seen_ = Look_(Check_.x, Check_.y, 0);\n"
+              "#end\n",
+              text->name, out);
+  fprintf(out,
+          "#if (vlength(<Seen_.red, Seen_.green, Seen_.blue> - <%.10g, %.10g, %.10g>) > 4e-4)\n",
+          (double)sheet->check[0], (double)sheet->check[1], (double)sheet->check[2]);
+  print_named(
+      "  #error concat(\"@_Canned: \", @_Sheet_File, \" is not the image that was made with \",\n"
+      "    \"this include; make both anew with `bakeslab include'\\n\")\n"
+      "#end\n\n",
+      text->name, out);
+}
+
+void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+  int most = 1;
+  for (int p = 0; p < sheet->page_count; ++p)
+    for (int axis = SLAB_U; axis <= SLAB_V; ++axis) {
+      int lights = sheet->pages[p].levels[0].views.samples[axis];
+      most = lights > most ? lights : most;
+    }
+  print_usage(sheet, text, out);
+  print_limits(sheet, out);
+  print_table(sheet, text, out);
+  print_named("\n#ifndef(@_Canned_Inc_Temp)\n"
+              "#declare @_Canned_Inc_Temp = version;\n"
+              "#version 3.7;\n"
+              "#ifdef(View_POV_Include_Stack)\n"
+              "  #debug \"including ",
+              text->name, out);
+  fprintf(out, "%s_Canned\\n\"\n#end\n\n", text->name);
+  print_named("#ifndef(@_Lights) #declare @_Lights = ", text->name, out);
+  fprintf(out, "%d; #end\n", most);
+  print_named("#ifndef(@_Sheet_File) #declare @_Sheet_File = ", text->name, out);
+  print_string(text->image, out);
+  fputs("; #end\n\n", out);
+  print_frames(sheet, text, out);
+  print_levels(sheet, text, out);
+  print_image(sheet, text, out);
+  fprintf(out,
+          "// Lowest height of the sheet before its lights that POV-Ray still sees all of.\n"
+          "#declare %s_Least_Height = %g;\n\n",
+          text->name, sheet_least_height);
+  print_named(sheet_macros, text->name, out);
+  if (text->housing) {
+    print_named("\n#macro @_Canned_Case()\n", text->name, out);
+    fprintf(out, "%s\n#end\n", text->housing);
+  }
+  print_named("\n#version @_Canned_Inc_Temp;\n#end\n", text->name, out);
+}

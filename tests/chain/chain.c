@@ -1,0 +1,291 @@
+/* chain.c - see chain.h. */
+#include "chain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* ---- Vectors and random numbers ---- */
+double chain_dot(const double x[3], const double y[3]) {
+  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+double chain_length(const double x[3]) {
+  return sqrt(chain_dot(x, x));
+}
+
+/* SplitMix64 */
+double chain_random(uint64_t *state) {
+  uint64_t z = *state += 0x9e3779b97f4a7c15u;
+  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+  return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+static void random_frame(uint64_t *state, double frame[3][3]) {
+  for (int k = 0; k < 3; ++k) {
+    double size = 0;
+    while (size < 0.1) {
+      for (int c = 0; c < 3; ++c) frame[k][c] = 2 * chain_random(state) - 1;
+      for (int m = 0; m < k; ++m) {
+        double share = chain_dot(frame[k], frame[m]);
+        for (int c = 0; c < 3; ++c) frame[k][c] -= share * frame[m][c];
+      }
+      size = chain_length(frame[k]);
+    }
+    for (int c = 0; c < 3; ++c) frame[k][c] /= size;
+  }
+}
+
+static double handedness(const double x[3], const double y[3], const double z[3]) {
+  return (x[1] * y[2] - x[2] * y[1]) * z[0] + (x[2] * y[0] - x[0] * y[2]) * z[1] +
+         (x[0] * y[1] - x[1] * y[0]) * z[2];
+}
+
+/* ---- Slabs ---- */
+void chain_fill(struct slab *slab, uint64_t *state) {
+  assert_int_equal(slab_alloc(slab, NULL), SLAB_OK);
+  size_t values = (size_t)slab->samples[0] * (size_t)slab->samples[1] * (size_t)slab->samples[2] *
+                  (size_t)slab->samples[3] * 3;
+  for (size_t k = 0; k < values; ++k) slab->rgb[k] = (float)pow(10, 3 * chain_random(state) - 1);
+}
+
+struct slab chain_slab(const int samples[4], const double edges[2], const double window[4],
+                       double distance, int mirrored, uint64_t seed) {
+  struct slab slab = slab_default();
+  double frame[3][3];
+  random_frame(&seed, frame);
+  int is_mirrored = handedness(frame[0], frame[1], frame[2]) < 0;
+  for (int c = 0; c < 3; ++c) {
+    slab.u[c] = edges[0] * frame[0][c];
+    slab.v[c] = edges[1] * frame[1][c];
+    slab.normal[c] = is_mirrored == mirrored ? frame[2][c] : -frame[2][c];
+    slab.center[c] = 0.4 * chain_random(&seed) - 0.2;
+  }
+  memcpy(slab.samples, samples, sizeof slab.samples);
+  memcpy(slab.st_window, window, sizeof slab.st_window);
+  slab.st_distance = distance;
+  snprintf(slab.name, sizeof slab.name, "test_lamp");
+  chain_fill(&slab, &seed);
+  return slab;
+}
+
+float *chain_sample(const struct slab *slab, int i, int j, int k, int l) {
+  const int *n = slab->samples;
+  return slab->rgb + 3 * ((size_t)(j * n[3] + l) * (size_t)(n[0] * n[2]) + (size_t)(i * n[2] + k));
+}
+
+struct slab chain_means(const struct slab *from, int nu, int nv) {
+  struct slab to = *from;
+  to.json = NULL;
+  to.rgb = NULL;
+  to.samples[0] = nu;
+  to.samples[1] = nv;
+  assert_int_equal(slab_alloc(&to, NULL), SLAB_OK);
+  for (int j = 0; j < nv * from->samples[1]; ++j)
+    for (int i = 0; i < nu * from->samples[0]; ++i)
+      for (int l = 0; l < to.samples[3]; ++l)
+        for (int k = 0; k < to.samples[2]; ++k) /* on a grid that refines both */
+          for (int c = 0; c < 3; ++c)
+            (chain_sample(&to, i / from->samples[0], j / from->samples[1], k, l))[c] +=
+                chain_sample(from, i / nu, j / nv, k, l)[c] /
+                (float)(from->samples[0] * from->samples[1]);
+  return to;
+}
+
+/* ---- The direct sum ---- */
+const double chain_identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+
+static void turn(const struct chain_lamp *lamp, const double x[3], double turned[3]) {
+  for (int c = 0; c < 3; ++c)
+    turned[c] = x[0] * lamp->matrix[c] + x[1] * lamp->matrix[3 + c] + x[2] * lamp->matrix[6 + c];
+}
+
+static int taps(double x, double low, double high, int n, int index[2], double weight[2]) {
+  if (x < low || x > high) return 0;
+  double place = fmin(fmax((x - low) / (high - low) * n - 0.5, 0), n - 1);
+  index[0] = (int)floor(place);
+  index[1] = index[0] + 1 < n ? index[0] + 1 : n - 1;
+  weight[1] = place - index[0];
+  weight[0] = 1 - weight[1];
+  return 1;
+}
+
+static void view(const struct slab *slab, int i, int j, double s, double t, double rgb[3]) {
+  int k[2], l[2];
+  double ws[2], wt[2];
+  const double *w = slab->st_window;
+  rgb[0] = rgb[1] = rgb[2] = 0;
+  if (!taps(s, w[0], w[1], slab->samples[2], k, ws)) return;
+  if (!taps(t, w[2], w[3], slab->samples[3], l, wt)) return;
+  for (int m = 0; m < 4; ++m)
+    for (int c = 0; c < 3; ++c)
+      rgb[c] += ws[m & 1] * wt[m >> 1] * chain_sample(slab, i, j, k[m & 1], l[m >> 1])[c];
+}
+
+static void add_page(const struct chain_lamp *lamp, const struct slab *slab, const double at[3],
+                     const double normal[3], double rgb[3]) {
+  double n[3], u[3], v[3], lu = chain_length(slab->u), lv = chain_length(slab->v);
+  turn(lamp, slab->normal, n);
+  turn(lamp, slab->u, u);
+  turn(lamp, slab->v, v);
+  for (int j = 0; j < slab->samples[1]; ++j)
+    for (int i = 0; i < slab->samples[0]; ++i) {
+      double a = ((i + 0.5) / slab->samples[0] - 0.5) * lu;
+      double b = ((j + 0.5) / slab->samples[1] - 0.5) * lv;
+      double place[3], away[3], radiance[3];
+      for (int c = 0; c < 3; ++c)
+        place[c] = slab->center[c] + a * slab->u[c] / lu + b * slab->v[c] / lv;
+      turn(lamp, place, away);
+      for (int c = 0; c < 3; ++c) away[c] = at[c] - (lamp->scale * away[c] + lamp->matrix[9 + c]);
+      double height = chain_dot(away, n), facing = -chain_dot(away, normal);
+      if (height <= 0 || facing <= 0) continue;
+      view(slab, i, j, chain_dot(away, u) / lu / height + a / slab->st_distance,
+           chain_dot(away, v) / lv / height + b / slab->st_distance, radiance);
+      double r2 = chain_dot(away, away);
+      double area = lamp->scale * lamp->scale * lu * lv / (slab->samples[0] * slab->samples[1]);
+      for (int c = 0; c < 3; ++c)
+        rgb[c] += lamp->gain * radiance[c] * height * facing / (r2 * r2) * area;
+    }
+}
+
+/* ---- The picture ---- */
+struct chain_plane chain_facing(const struct chain_lamp *lamp, int page, double distance) {
+  const struct slab *slab = &lamp->pages[page];
+  struct chain_plane plane;
+  double u[3], v[3], n[3], middle[3], lu = chain_length(slab->u), lv = chain_length(slab->v);
+  const double *w = slab->st_window;
+  turn(lamp, slab->u, u);
+  turn(lamp, slab->v, v);
+  turn(lamp, slab->normal, n);
+  turn(lamp, slab->center, middle);
+  double away = distance * fmax(lu, lv), spread = fabs(1 - away / slab->st_distance);
+  double size[2] = {spread * lu + away * (w[1] - w[0]), spread * lv + away * (w[3] - w[2])};
+  const double tilt = 0.1;
+  for (int c = 0; c < 3; ++c) {
+    plane.normal[c] = (-n[c] + tilt * u[c] / lu) / sqrt(1 + tilt * tilt);
+    plane.across[c] = lamp->scale * size[0] * (u[c] / lu + tilt * n[c]) / sqrt(1 + tilt * tilt);
+    plane.down[c] = lamp->scale * size[1] * v[c] / lv;
+    plane.center[c] = lamp->scale * (middle[c] + away * (n[c] + (w[0] + w[1]) / 2 * u[c] / lu +
+                                                         (w[2] + w[3]) / 2 * v[c] / lv)) +
+                      lamp->matrix[9 + c];
+  }
+  return plane;
+}
+
+static void pixel(const struct chain_plane *plane, int x, int y, double at[3]) {
+  for (int c = 0; c < 3; ++c)
+    at[c] = plane->center[c] + ((x + 0.5) / CHAIN_SIZE - 0.5) * plane->across[c] +
+            ((y + 0.5) / CHAIN_SIZE - 0.5) * plane->down[c];
+}
+
+void chain_direct(const struct chain_lamp *lamps, int count, const struct chain_plane *plane,
+                  double *rgb) {
+  for (int y = 0; y < CHAIN_SIZE; ++y)
+    for (int x = 0; x < CHAIN_SIZE; ++x) {
+      double at[3], sum[3] = {0, 0, 0};
+      pixel(plane, x, y, at);
+      for (int k = 0; k < count; ++k)
+        for (int p = 0; p < lamps[k].count; ++p)
+          add_page(&lamps[k], &lamps[k].pages[p], at, plane->normal, sum);
+      for (int c = 0; c < 3; ++c) rgb[3 * (y * CHAIN_SIZE + x) + c] = sum[c] / M_PI;
+    }
+}
+
+/* ---- Programs and files, in a folder that the test owns ---- */
+static char chain_folder[64];
+
+int chain_setup(void **state) {
+  (void)state;
+  strcpy(chain_folder, "/tmp/chain-XXXXXX");
+  return getenv("BAKESLAB") && mkdtemp(chain_folder) ? 0 : -1;
+}
+
+int chain_teardown(void **state) {
+  (void)state;
+  char command[128];
+  snprintf(command, sizeof command, "rm -rf '%s'", chain_folder);
+  return system(command);
+}
+
+__attribute__((format(printf, 1, 2))) int chain_run(const char *format, ...) {
+  char command[1024], line[1400];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(command, sizeof command, format, arguments);
+  va_end(arguments);
+  snprintf(line, sizeof line, "cd '%s' && ( %s ) >log 2>&1 </dev/null", chain_folder, command);
+  int status = system(line);
+  return status < 0 ? status : WEXITSTATUS(status);
+}
+
+const char *chain_path(const char *name) {
+  static char path[128];
+  snprintf(path, sizeof path, "%s/%s", chain_folder, name);
+  return path;
+}
+
+const char *chain_log(void) {
+  static char text[65536];
+  size_t length = 0;
+  FILE *file = fopen(chain_path("log"), "r");
+  assert_non_null(file);
+  for (int c; (c = getc(file)) != EOF && length < sizeof text - 1;) {
+    if (c == '\n') c = ' ';
+    if (c != ' ' || length == 0 || text[length - 1] != ' ') text[length++] = (char)c;
+  }
+  text[length] = 0;
+  fclose(file);
+  return text;
+}
+
+void chain_include(const struct slab *pages, int count, const char *name, const char *options) {
+  char file[64];
+  struct slab_error error;
+  snprintf(file, sizeof file, "%s-slab.exr", name);
+  if (slab_file_write(chain_path(file), pages, count, SLAB_PRECISION_FLOAT, &error) != SLAB_OK)
+    fail_msg("%s", error.text);
+  if (chain_run("\"$BAKESLAB\" include %s -o %s.inc %s", file, name, options) != 0)
+    fail_msg("%s", chain_log());
+}
+
+void chain_scene(const struct chain_plane *plane, const char *lights) {
+  FILE *file = fopen(chain_path("scene.pov"), "w");
+  assert_non_null(file);
+  const double *p = plane->center, *n = plane->normal, *a = plane->across, *d = plane->down;
+  fprintf(file,
+          "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
+          "camera { orthographic location <%.17g, %.17g, %.17g> direction <%.17g, %.17g, %.17g>\n"
+          "  right <%.17g, %.17g, %.17g> up <%.17g, %.17g, %.17g> }\n"
+          "plane { <%.17g, %.17g, %.17g>, %.17g\n"
+          "  pigment { rgb 1 } finish { diffuse 1 ambient 0 } }\n%s\n",
+          p[0] + 50 * n[0], p[1] + 50 * n[1], p[2] + 50 * n[2], -n[0], -n[1], -n[2], a[0], a[1],
+          a[2], -d[0], -d[1], -d[2], n[0], n[1], n[2], chain_dot(p, n), lights);
+  assert_int_equal(fclose(file), 0);
+}
+
+int chain_povray(void) {
+  return chain_run("povray +Iscene.pov +Oframe.exr +FE -A +WT1 -D +W%d +H%d", CHAIN_SIZE,
+                   CHAIN_SIZE);
+}
+
+void chain_render(struct slab_picture *picture) {
+  struct slab_error error;
+  if (chain_povray() != 0) fail_msg("%s", chain_log());
+  if (slab_exr_read(chain_path("frame.exr"), picture, &error) != SLAB_OK)
+    fail_msg("%s", error.text);
+  assert_int_equal(picture->width, CHAIN_SIZE);
+  assert_int_equal(picture->height, CHAIN_SIZE);
+}
+
+double chain_rmse(const struct slab_picture *picture, const double *direct) {
+  double error = 0, size = 0;
+  for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) {
+    error += (picture->rgb[k] - direct[k]) * (picture->rgb[k] - direct[k]);
+    size += direct[k] * direct[k];
+  }
+  return sqrt(error / size);
+}

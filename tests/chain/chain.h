@@ -1,0 +1,98 @@
+/* chain.h - what the tests of the whole chain share: slabs of random radiance,
+ * the include made from them, a POV-Ray picture lit by it, and the same picture
+ * as a direct sum over the slab.
+ *
+ * The direct sum is written from light-slab(5) alone. It shares no code with
+ * the library, which only carries slabs and pictures to and from files here.
+ * Needs the environment variable BAKESLAB, the program under test. */
+#ifndef CHAIN_H
+#define CHAIN_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "slab_exr.h"
+#include "slab_file.h"
+
+enum { CHAIN_SIZE = 48, CHAIN_PIXELS = CHAIN_SIZE * CHAIN_SIZE };
+
+double chain_dot(const double x[3], const double y[3]);
+double chain_length(const double x[3]);
+double chain_random(uint64_t *state); /* [0, 1) */
+
+/* ---- Slabs; free with slab_free ---- */
+
+/* Independent samples, log-uniform from 0.1 to 100. */
+void chain_fill(struct slab *slab, uint64_t *state);
+
+/* "test_lamp", a slab of such radiance in a random frame around a random
+ * place; mirrored makes u x v = -n. */
+struct slab chain_slab(const int samples[4], const double edges[2], const double window[4],
+                       double distance, int mirrored, uint64_t seed);
+
+float *chain_sample(const struct slab *slab, int i, int j, int k, int l);
+
+/* Means over nu x nv equal cells of the aperture; old cells count by area. */
+struct slab chain_means(const struct slab *from, int nu, int nv);
+
+/* ---- The direct sum ---- */
+
+/* A lamp in the scene: its point p stands at scale * p M + t, with M (a
+ * rotation or reflection) and t those of POV-Ray's matrix <...>. */
+struct chain_lamp {
+  const struct slab *pages;
+  int count;
+  double scale, gain;
+  double matrix[12];
+};
+
+extern const double chain_identity[12];
+
+/* A receiving plane, seen from above: pixel centres are spread over the
+ * rectangle `across` x `down` around `center`. */
+struct chain_plane {
+  double center[3], across[3], down[3], normal[3];
+};
+
+/* The plane that a page of a lamp shines at, `distance` aperture widths away,
+ * tilted a little, as large as what its light reaches there. */
+struct chain_plane chain_facing(const struct chain_lamp *lamp, int page, double distance);
+
+/* Radiance E/pi of a white plane under all lamps, CHAIN_PIXELS x RGB: a
+ * midpoint sum over uv samples, which is what the sheet promises. */
+void chain_direct(const struct chain_lamp *lamps, int count, const struct chain_plane *plane,
+                  double *rgb);
+
+/* ---- Programs and files, in a folder that the test owns ---- */
+
+int chain_setup(void **state);
+int chain_teardown(void **state);
+
+/* Path of a file in the folder; valid until the next call. */
+const char *chain_path(const char *name);
+
+/* Runs a command in the folder, its talk going to the file `log` there.
+ * Returns its exit status. */
+int chain_run(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* The log with all runs of blanks as one, since POV-Ray wraps its lines. */
+const char *chain_log(void);
+
+/* Writes slabs to NAME-slab.exr, whose floats are exact, and makes NAME.inc. */
+void chain_include(const struct slab *pages, int count, const char *name, const char *options);
+
+/* Writes scene.pov: the plane, seen by pixel centres, under `lights`. */
+void chain_scene(const struct chain_plane *plane, const char *lights);
+
+/* Renders scene.pov and returns POV-Ray's exit status; or reads what it made. */
+int chain_povray(void);
+void chain_render(struct slab_picture *picture);
+
+/* Relative root mean squared difference of the frame from the direct sum. */
+double chain_rmse(const struct slab_picture *picture, const double *direct);
+
+#endif
