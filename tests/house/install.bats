@@ -15,6 +15,7 @@ setup_file() {
   cmp "$ROOT/include-pov/LICENSE" "$PREFIX/share/canned/include-pov/LICENSE"
   cmp "$ROOT/README.md" "$PREFIX/share/doc/canned/README.md"
   cmp "$ROOT/lamps/parabolic.pov" "$PREFIX/share/doc/canned/lamps/parabolic.pov"
+  [ -s "$PREFIX/lib/canned/reads.so" ]
   [ -s "$PREFIX/share/man/man1/bakeslab.1" ]
   [ -s "$PREFIX/share/man/man5/light-slab.5" ]
   for command in $(commands); do [ -s "$PREFIX/share/man/man1/bakeslab-$command.1" ]; done
