@@ -87,11 +87,13 @@ tidy() {
   return "$bad"
 }
 
-# Only bakeslab/: assertions of cmocka confuse the analyser. Leaks are left to
-# clang-tidy and the sanitizers: gcc 12 sees one in each `p->x = malloc(n)`.
+# Only bakeslab/: assertions of cmocka confuse the analyser. Leaks and values
+# never set are left to clang-tidy and the sanitizers: gcc 12 sees a leak in each
+# `p->x = malloc(n)`, and sets only the first element of an array.
 analyse() {
   only '^bakeslab/.*\.c$' | xargs -P "$JOBS" -I NAME bash -c 'assuming "$@"' _ NAME \
-    gcc "${flags[@]}" -O0 -fanalyzer -Wno-analyzer-malloc-leak -fdiagnostics-path-format=none -Werror -c FILE -o /dev/null
+    gcc "${flags[@]}" -O0 -fanalyzer -Wno-analyzer-malloc-leak -Wno-analyzer-use-of-uninitialized-value \
+    -fdiagnostics-path-format=none -Werror -c FILE -o /dev/null
 }
 
 check 'clang-format -i FILE would change' formatted
