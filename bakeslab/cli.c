@@ -91,10 +91,12 @@ const char *cli_command_line(void) {
 }
 
 int cli_close_stdout(void) {
+  static int status = -1; /* stdout is closed once, then the answer stays */
+  if (status >= 0) return status;
   bool failed = ferror(stdout) != 0;
   errno = 0;
   if (fclose(stdout) != 0) failed = true;
-  if (!failed) return CLI_OK;
-  cli_complain("stdout: %s", errno ? strerror(errno) : "could not be written");
-  return CLI_FAILED;
+  status = failed ? CLI_FAILED : CLI_OK;
+  if (failed) cli_complain("stdout: %s", errno ? strerror(errno) : "could not be written");
+  return status;
 }

@@ -38,7 +38,8 @@ const char *cli_command_line(void);
 void cli_set_command_line(int argc, char **argv);
 
 /* Flushes stdout and says whether all that was printed got there: a full disk
- * or a closed pipe is an error. Returns an exit status. */
+ * or a closed pipe is an error. Returns an exit status; main calls it at exit
+ * once more, for those who forgot (argp's --help). */
 int cli_close_stdout(void);
 
 #endif

@@ -78,7 +78,7 @@ static double density(const struct hat *uv, const struct hat *st, double kappa, 
 /* Quadrature nodes, growing. */
 struct rule {
   int count;
-  double x[MAX_NODES], w[MAX_NODES];
+  double x[MAX_NODES], w[MAX_NODES], scratch[2 * MAX_NODES];
 };
 
 struct builder {
@@ -119,7 +119,8 @@ static void build_rule(const struct slab *slab, int axis, int i, int k, struct r
   int order = slab_gauss_order(corners[0], corners[count - 1], tolerance);
   if (order >= rule->count || order > SLAB_GAUSS_MAX) return;
   double nodes[SLAB_GAUSS_MAX], weights[SLAB_GAUSS_MAX];
-  rule->count = slab_gauss_compress(rule->count, rule->x, rule->w, order, nodes, weights);
+  rule->count =
+      slab_gauss_compress(rule->count, rule->x, rule->w, order, nodes, weights, rule->scratch);
   memcpy(rule->x, nodes, (size_t)rule->count * sizeof *nodes);
   memcpy(rule->w, weights, (size_t)rule->count * sizeof *weights);
 }

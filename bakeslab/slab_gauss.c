@@ -60,13 +60,13 @@ void slab_gauss_legendre(int n, double *nodes, double *weights) {
 }
 
 int slab_gauss_compress(int count, const double *x, const double *w, int n, double *nodes,
-                        double *weights) {
+                        double *weights, double *scratch) {
   double total = 0, beside[SLAB_GAUSS_MAX];
   for (int k = 0; k < count; ++k) total += w[k];
   if (!(total > 0)) return 0;
   if (n > count) n = count;
   /* Stieltjes: values of the last two monic polynomials at the points. */
-  double before[count], here[count], norm = total, norm_before = 1;
+  double *before = scratch, *here = scratch + count, norm = total, norm_before = 1;
   for (int k = 0; k < count; ++k) before[k] = 0, here[k] = 1;
   for (int degree = 0; degree < n; ++degree) {
     double mean = 0;

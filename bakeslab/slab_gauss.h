@@ -14,9 +14,9 @@ void slab_gauss_legendre(int n, double *nodes, double *weights);
 
 /* Replaces `count` points x[] with weights w[] >= 0 by n nodes that integrate
  * polynomials up to degree 2n - 1 alike. Returns how many were needed: fewer
- * where the points are fewer. */
+ * where the points are fewer. `scratch` has room for 2 count numbers. */
 int slab_gauss_compress(int count, const double *x, const double *w, int n, double *nodes,
-                        double *weights);
+                        double *weights, double *scratch);
 
 /* Nodes that Gauss's rule on [low, high] needs for a relative error of
  * `tolerance` in a function with its nearest poles at +-i. */

@@ -259,29 +259,35 @@ char *slab_json_get(const struct slab *slab, const char *key) {
   return text;
 }
 
+/* A string, or a note in its place where it is not UTF-8. */
+static json_t *string(const char *text) {
+  json_t *value = json_string(text);
+  return value ? value : json_string("(not UTF-8)");
+}
+
 enum slab_result slab_json_record(struct slab *slab, const char *command, const char *tool,
                                   struct slab_error *error) {
-  json_t *root = NULL, *fresh = json_object();
-  char *text = NULL;
+  json_t *root = NULL;
   enum slab_result result = load_object(slab, &root, error);
-  if (result != SLAB_OK) goto out;
+  if (result != SLAB_OK) return result;
   json_t *old = json_object_get(root, "provenance");
-  json_t *history = json_object_get(old, "history");
-  history = json_is_array(history) ? json_copy(history) : json_array();
-  json_object_set_new(fresh, "command", json_string(command));
-  json_object_set_new(fresh, "tool", json_string(tool));
-  for (const char *const *key = (const char *const[]){"effects", "noise", NULL}; *key; ++key)
-    if (json_object_get(old, *key)) json_object_set(fresh, *key, json_object_get(old, *key));
-  if (old) {
-    json_t *entry = json_copy(old);
-    json_object_del(entry, "history");
-    json_array_append_new(history, entry);
+  json_t *fresh = json_is_object(old) ? json_copy(old) : json_object();
+  json_t *before = json_object_get(old, "history");
+  json_t *history = json_is_array(before) ? json_copy(before) : json_array();
+  if (json_is_object(old)) {
+    json_t *step = json_object();
+    json_object_set(step, "command", json_object_get(old, "command"));
+    json_object_set(step, "tool", json_object_get(old, "tool"));
+    json_array_append_new(history, step);
+  } else if (old) {
+    json_array_append(history, old);
   }
+  json_object_set_new(fresh, "command", string(command));
+  json_object_set_new(fresh, "tool", string(tool));
   json_object_set_new(fresh, "history", history);
-  text = dump(fresh);
+  char *text = dump(fresh);
   result = text ? slab_json_set(slab, "provenance", text, error)
                 : slab_fail(error, SLAB_MEMORY, "out of memory");
-out:
   free(text);
   json_decref(fresh);
   json_decref(root);

@@ -31,9 +31,9 @@ enum slab_result slab_json_set(struct slab *slab, const char *key, const char *v
  * The caller frees it. */
 char *slab_json_get(const struct slab *slab, const char *key);
 
-/* Records that `command` made the slab. An older provenance is kept: it moves
- * to the end of the array "history" inside the new one, "effects" and "noise"
- * stay where they are, since they still describe the light. */
+/* Records in "provenance" that `command` of `tool` made the slab. The command
+ * and tool before go to the end of its array "history"; its other keys stay,
+ * since they still describe the light. */
 enum slab_result slab_json_record(struct slab *slab, const char *command, const char *tool,
                                   struct slab_error *error);
 

@@ -1,0 +1,138 @@
+/* cmd_check.c - bakeslab check: reads all of a slab, and looks whether its
+ * light goes on beyond what was sampled.
+ *
+ * The profile of an axis is the mean of |L| over all other axes, for each
+ * sample of the axis. Where light fades out before the border of the st
+ * window, the profile's ends are dark; an end brighter than 2 % of the
+ * profile's peak is reported as cut off. The uv rectangle usually ends where
+ * the lamp's opening does, so only an end brighter than 50 % is reported:
+ * then the opening fills the rectangle, and may well go on beyond it. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli.h"
+#include "slab_file.h"
+
+static const double window_limit = 0.02, rectangle_limit = 0.5;
+
+struct options {
+  bool strict;
+  char **paths;
+  int count;
+};
+
+enum { OPTION_STRICT = 256 };
+
+static error_t parse(int key, char *argument, struct argp_state *state) {
+  struct options *options = state->input;
+  (void)argument;
+  switch (key) {
+  case OPTION_STRICT:
+    options->strict = true;
+    return 0;
+  case ARGP_KEY_ARGS:
+    options->paths = state->argv + state->next;
+    options->count = state->argc - state->next;
+    return 0;
+  case ARGP_KEY_NO_ARGS:
+    argp_usage(state);
+    return EINVAL;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static void add_to_profiles(const struct slab *slab, double *profiles[SLAB_AXES]) {
+  const float *sample = slab->rgb;
+  int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
+  for (int y = 0; y < slab_height(slab); ++y)
+    for (int x = 0; x < slab_width(slab); ++x, sample += 3) {
+      double size = 0;
+      for (int c = 0; c < 3; ++c) size += fabs((double)sample[c]);
+      profiles[SLAB_U][x / ns] += size;
+      profiles[SLAB_S][x % ns] += size;
+      profiles[SLAB_V][y / nt] += size;
+      profiles[SLAB_T][y % nt] += size;
+    }
+}
+
+/* Warns about both ends of one axis; a 1-wide axis says nothing. */
+static int judge_axis(const char *path, int page, int axis, const double *profile, int count) {
+  static const char names[] = "uvst";
+  bool window = axis == SLAB_S || axis == SLAB_T;
+  double peak = 0, limit = window ? window_limit : rectangle_limit;
+  for (int k = 0; k < count; ++k) peak = fmax(peak, profile[k]);
+  int warnings = 0;
+  for (int end = 0; end < 2 && count > 1; ++end) {
+    double share = profile[end ? count - 1 : 0] / peak;
+    if (!(share > limit)) continue;
+    ++warnings;
+    printf("%s: page %d: warning: light is cut off at the %s end of %c (%s): the last samples "
+           "have %.3g %% of the brightest, more than %g %%\n",
+           path, page + 1, end ? "high" : "low", names[axis], window ? "st window" : "uv rectangle",
+           100 * share, 100 * limit);
+  }
+  return warnings;
+}
+
+static enum slab_result judge_page(const char *path, int page, const struct slab *slab,
+                                   int *warnings, struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  double *profiles[SLAB_AXES] = {0};
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    profiles[axis] = calloc((size_t)slab->samples[axis], sizeof *profiles[axis]);
+    if (!profiles[axis]) {
+      result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+      goto out;
+    }
+  }
+  add_to_profiles(slab, profiles);
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    *warnings += judge_axis(path, page, axis, profiles[axis], slab->samples[axis]);
+out:
+  for (int axis = 0; axis < SLAB_AXES; ++axis) free(profiles[axis]);
+  return result;
+}
+
+static enum slab_result check_file(const char *path, int *warnings, struct slab_error *error) {
+  struct slab_file *file = NULL;
+  enum slab_result result = slab_file_open(path, &file, error);
+  for (int page = 0; result == SLAB_OK && page < slab_file_pages(file); ++page) {
+    struct slab slab = {0};
+    result = slab_file_load(file, page, &slab, error);
+    if (result == SLAB_OK) result = judge_page(path, page, &slab, warnings, error);
+    if (result == SLAB_OK)
+      printf("%s: page %d: valid, %d x %d x %d x %d samples\n", path, page + 1, slab.samples[0],
+             slab.samples[1], slab.samples[2], slab.samples[3]);
+    slab_free(&slab);
+  }
+  slab_file_close(file);
+  return result;
+}
+
+int cmd_check(int argc, char **argv) {
+  static const struct argp_option option[] = {
+      {"strict", OPTION_STRICT, NULL, 0, "Exit with 1 after a warning too", 0}, {0}};
+  static const struct argp argp = {
+      .options = option,
+      .parser = parse,
+      .args_doc = "SLAB...",
+      .doc = "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
+             "standard output, where light is cut off: where the mean radiance of the last samples "
+             "of s or t is more than 2 % of that axis's brightest (enlarge the st window), and of "
+             "u or v more than 50 % (the lamp's opening fills the rectangle and may go on beyond "
+             "it). A warning is not an error."
+             "\vExamples:\n"
+             "  bakeslab check lamp.tif\n"
+             "  bakeslab check --strict lamps/*.tif"};
+  struct options options = {0};
+  argp_parse(&argp, argc, argv, 0, NULL, &options);
+  int status = CLI_OK, warnings = 0;
+  for (int k = 0; k < options.count; ++k) {
+    struct slab_error error = {{0}};
+    if (check_file(options.paths[k], &warnings, &error) != SLAB_OK) status = cli_fail(&error);
+  }
+  if (options.strict && warnings > 0) status = CLI_FAILED;
+  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+}

@@ -1,0 +1,159 @@
+/* cmd_convert.c - bakeslab convert: other container, precision, resolution. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+#include "slab_file.h"
+#include "slab_json.h"
+#include "slab_resample.h"
+
+struct options {
+  const char *input, *output;
+  enum slab_precision precision;
+  int samples[SLAB_AXES];               /* 0: as it is */
+  int first[SLAB_AXES], end[SLAB_AXES]; /* end 0: all */
+};
+
+enum { OPTION_PRECISION = 256, OPTION_UV, OPTION_ST, OPTION_CROP };
+
+static enum slab_precision parse_precision(const char *text, struct argp_state *state) {
+  static const struct {
+    const char *name;
+    enum slab_precision precision;
+  } known[] = {{"logluv", SLAB_PRECISION_LOGLUV},
+               {"float", SLAB_PRECISION_FLOAT},
+               {"half", SLAB_PRECISION_HALF}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
+    if (!strcmp(text, known[k].name)) return known[k].precision;
+  argp_error(state, "--precision %s: must be logluv, float or half", text);
+  return SLAB_PRECISION_DEFAULT;
+}
+
+static void parse_size(const char *option, const char *text, int *samples,
+                       struct argp_state *state) {
+  if (!cli_parse_size(text, samples))
+    argp_error(state, "--%s %s: must be NxM, each from 1 to 65536", option, text);
+}
+
+/* uv=I0:I1,J0:J1 or st=K0:K1,L0:L1 */
+static void parse_crop(const char *text, struct options *options, struct argp_state *state) {
+  int axis = !strncmp(text, "uv=", 3) ? SLAB_U : !strncmp(text, "st=", 3) ? SLAB_S : -1;
+  int *first = options->first, *end = options->end, used = 0;
+  if (axis >= 0 &&
+      sscanf(text + 3, "%9d:%9d,%9d:%9d%n", &first[axis], &end[axis], &first[axis + 1],
+             &end[axis + 1], &used) == 4 &&
+      !text[3 + used] && first[axis] >= 0 && first[axis] < end[axis] && first[axis + 1] >= 0 &&
+      first[axis + 1] < end[axis + 1])
+    return;
+  argp_error(state, "--crop %s: must be uv=I0:I1,J0:J1 or st=K0:K1,L0:L1 with first < end", text);
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state) {
+  struct options *options = state->input;
+  switch (key) {
+  case 'o':
+    options->output = argument;
+    return 0;
+  case OPTION_PRECISION:
+    options->precision = parse_precision(argument, state);
+    return 0;
+  case OPTION_UV:
+    parse_size("uv", argument, options->samples + SLAB_U, state);
+    return 0;
+  case OPTION_ST:
+    parse_size("st", argument, options->samples + SLAB_S, state);
+    return 0;
+  case OPTION_CROP:
+    parse_crop(argument, options, state);
+    return 0;
+  case ARGP_KEY_ARG:
+    if (options->input) argp_usage(state);
+    options->input = argument;
+    return 0;
+  case ARGP_KEY_END:
+    if (!options->input) argp_error(state, "no SLAB given");
+    if (!options->output) argp_error(state, "no output given: -o OUT");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static void replace(struct slab *slab, struct slab *with) {
+  slab_free(slab);
+  *slab = *with;
+}
+
+static enum slab_result convert_page(const struct options *options, struct slab *slab,
+                                     struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  int first[SLAB_AXES], end[SLAB_AXES], samples[SLAB_AXES];
+  bool crop = false, resample = false;
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    first[axis] = options->end[axis] ? options->first[axis] : 0;
+    end[axis] = options->end[axis] ? options->end[axis] : slab->samples[axis];
+    crop |= options->end[axis] != 0;
+    samples[axis] = options->samples[axis] ? options->samples[axis] : end[axis] - first[axis];
+    resample |= options->samples[axis] != 0;
+  }
+  struct slab other = {0};
+  if (crop) {
+    result = slab_crop(slab, first, end, &other, error);
+    if (result == SLAB_OK) replace(slab, &other);
+  }
+  if (resample && result == SLAB_OK) {
+    result = slab_resample(slab, samples, &other, error);
+    if (result == SLAB_OK) replace(slab, &other);
+  }
+  if (result == SLAB_OK)
+    result = slab_json_record(slab, cli_command_line(), "bakeslab " BAKESLAB_VERSION, error);
+  return result;
+}
+
+static enum slab_result run(const struct options *options, struct slab_error *error) {
+  struct slab *slabs = NULL;
+  int count = 0;
+  enum slab_result result = slab_file_load_all(options->input, &slabs, &count, error);
+  for (int page = 0; page < count && result == SLAB_OK; ++page) {
+    struct slab_error why;
+    result = convert_page(options, &slabs[page], &why);
+    if (result != SLAB_OK)
+      slab_fail(error, result, "%s: page %d: %s", options->input, page + 1, why.text);
+  }
+  if (result == SLAB_OK)
+    result = slab_file_write(options->output, slabs, count, options->precision, error);
+  slab_file_free_all(slabs, count);
+  return result;
+}
+
+int cmd_convert(int argc, char **argv) {
+  static const struct argp_option option[] = {
+      {"output", 'o', "OUT", 0, "The file to write: .tif, .tiff or .exr", 0},
+      {"precision", OPTION_PRECISION, "P", 0,
+       "logluv (the default for TIFF; 4 bytes), float (the default for EXR) or half", 0},
+      {"uv", OPTION_UV, "NxM", 0, "Samples along u and v", 0},
+      {"st", OPTION_ST, "NxM", 0, "Samples along s and t", 0},
+      {"crop", OPTION_CROP, "RANGE", 0,
+       "Keep a part, before anything else: uv=I0:I1,J0:J1 or st=K0:K1,L0:L1, sample numbers from "
+       "0, the end not included. May be given for both.",
+       0},
+      {0}};
+  static const struct argp argp = {
+      .options = option,
+      .parser = parse,
+      .args_doc = "SLAB -o OUT",
+      .doc = "Writes a light slab into another container, or with another precision or resolution. "
+             "Fewer samples are means over the new cells, more are interpolated. The command is "
+             "recorded in the provenance."
+             "\vExamples:\n"
+             "  bakeslab convert lamp.tif -o lamp.exr\n"
+             "  bakeslab convert lamp.tif -o small.tif --uv 8x8 --st 32x32\n"
+             "  bakeslab convert lamp.exr -o exact.tif --precision float\n"
+             "  bakeslab convert lamp.tif -o middle.tif --crop st=16:48,16:48"};
+  struct options options = {0};
+  struct slab_error error = {{0}};
+  argp_parse(&argp, argc, argv, 0, NULL, &options);
+  return run(&options, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
+}
