@@ -155,16 +155,33 @@ char *bake_scene_text(const struct bake_look *look, const struct slab *slabs, in
 
 /* ---- Reading ---- */
 
-static enum slab_result check_finite(const float *rgb, size_t rays, const struct povray_job *job, struct slab_error *error) {
-  for (size_t n = 0; n < 3 * rays; ++n)
-    if (!isfinite(rgb[n]))
-      return slab_fail(error, SLAB_BAD, "%s: ray %zu of this batch is %s: brighter than the half-float pictures of POV-Ray can hold; bake with a smaller --gain", job->directory, n / 3, isnan(rgb[n]) ? "not a number" : "infinite");
-  return SLAB_OK;
+/* Says which sample a ray that is not finite belongs to. */
+static enum slab_result refuse_ray(const struct bake_round *round, const struct bake_batch *batch,
+                                   size_t ray, float value, struct slab_error *error) {
+  size_t unit = batch->first;
+  for (; ray >= (size_t)bake_box_rays(unit_box(round, unit)); ++unit)
+    ray -= (size_t)bake_box_rays(unit_box(round, unit));
+  const struct bake_box *box = unit_box(round, unit);
+  static const int fastest_first[SLAB_AXES] = {SLAB_S, SLAB_U, SLAB_T, SLAB_V};
+  int at[SLAB_AXES];
+  for (int n = 0; n < SLAB_AXES; ++n) {
+    int axis = fastest_first[n];
+    at[axis] = box->first[axis] + (int)(ray % (size_t)box->size[axis]);
+    ray /= (size_t)box->size[axis];
+  }
+  return slab_fail(error, SLAB_BAD,
+                   "page %d, sample (%d,%d,%d,%d): POV-Ray rendered %s; a lamp brighter than "
+                   "half-float pictures can hold needs a smaller --gain",
+                   box->page + 1, at[0], at[1], at[2], at[3],
+                   isnan(value) ? "something that is not a number" : "an infinite radiance");
 }
 
-enum slab_result bake_scene_read(const struct bake_look *look, const struct bake_batch *batch, const struct povray_job *job, float *rgb, struct slab_error *error) {
-  size_t skip = look->form == BAKE_MESH ? (size_t)look->defect_rows * (size_t)job->width * 3 : 0;
-  size_t rays = look->form == BAKE_MESH ? batch->rays : (size_t)job->width * (size_t)job->height;
+enum slab_result bake_scene_read(const struct bake_look *look, const struct bake_round *round,
+                                 const struct bake_batch *batch, const struct povray_job *job,
+                                 float *rgb, struct slab_error *error) {
+  bool mesh = look->form == BAKE_MESH;
+  size_t skip = mesh ? (size_t)look->defect_rows * (size_t)job->width * 3 : 0;
+  size_t rays = mesh ? batch->rays : (size_t)job->width * (size_t)job->height;
   for (int frame = 0; frame < job->frames; ++frame) {
     struct slab_picture picture = {0};
     enum slab_result result = povray_read_frame(job, frame, &picture, error);
@@ -172,5 +189,7 @@ enum slab_result bake_scene_read(const struct bake_look *look, const struct bake
     memcpy(rgb + 3 * rays * (size_t)frame, picture.rgb + skip, 3 * rays * sizeof *rgb);
     slab_picture_free(&picture);
   }
-  return check_finite(rgb, batch->rays, job, error);
+  for (size_t n = 0; n < 3 * batch->rays; ++n)
+    if (!isfinite(rgb[n])) return refuse_ray(round, batch, n / 3, rgb[n], error);
+  return SLAB_OK;
 }

@@ -26,8 +26,8 @@ void bake_scene_size(const struct bake_look *look, const struct bake_round *roun
 
 /* Takes the batch's rays out of its frames: rgb gets 3 floats a ray, unit by unit.
  * Refuses frames of the wrong size and rays that are not finite. */
-enum slab_result bake_scene_read(const struct bake_look *look, const struct bake_batch *batch,
-                                 const struct povray_job *job, float *rgb,
-                                 struct slab_error *error);
+enum slab_result bake_scene_read(const struct bake_look *look, const struct bake_round *round,
+                                 const struct bake_batch *batch, const struct povray_job *job,
+                                 float *rgb, struct slab_error *error);
 
 #endif

@@ -50,17 +50,20 @@ enum slab_result bake_store_open(const char *output, bool shared, struct bake_st
   return result;
 }
 
+/* Whether there is a batch, finished or in hand. */
+static bool holds_batches(const char *directory) {
+  DIR *list = opendir(directory);
+  bool found = false;
+  for (struct dirent *entry; list && (entry = readdir(list));)
+    found |= entry->d_name[0] != '.' && strcmp(entry->d_name, "lock") != 0;
+  if (list) closedir(list);
+  return found;
+}
+
 void bake_store_close(struct bake_store *store, bool finished) {
-  if (finished && store->directory) files_remove_tree(store->directory);
+  if (store->lock >= 0 && (finished || !holds_batches(store->directory)))
+    files_remove_tree(store->directory);
   if (store->lock >= 0) close(store->lock);
-  /* Where nothing was finished, nothing stays. */
-  if (!finished && store->directory) {
-    char *path = files_join(store->directory, "lock");
-    if (path && rmdir(store->directory) != 0) {
-      /* not empty: batches are kept, and the lock file with them */
-    }
-    free(path);
-  }
   free(store->directory);
   *store = (struct bake_store){.lock = -1};
 }

@@ -47,6 +47,14 @@ static bool add_slab(struct lamp *lamp) {
   return true;
 }
 
+/* A bulb may be too small for the probe to see. */
+static bool read_bulb(const char *value, struct lamp *lamp) {
+  double rgb[3];
+  if (!read_numbers(value, 3, rgb)) return false;
+  for (int c = 0; c < 3; ++c) lamp->peak = fmax(lamp->peak, fabs(rgb[c]));
+  return true;
+}
+
 /* One line of what canned.inc tells: a key and its value. Keys up to the first
  * "slab" speak of the lamp, those after one of that slab. */
 static bool read_declaration(char *line, struct lamp *lamp, struct slab *common) {
@@ -68,6 +76,7 @@ static bool read_declaration(char *line, struct lamp *lamp, struct slab *common)
     snprintf(lamp->needs, sizeof lamp->needs, "%s", value);
     return true;
   }
+  if (!strcmp(line, "bulb")) return read_bulb(value, lamp);
   if (!strcmp(line, "metres_per_unit")) return read_numbers(value, 1, &common->metres_per_unit);
   if (!slab) return false;
   if (!strcmp(line, "center")) return read_numbers(value, 3, slab->center);

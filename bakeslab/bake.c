@@ -1,0 +1,223 @@
+/* bake.c - see bake.h. */
+#include "bake.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bake_run.h"
+#include "bake_sum.h"
+#include "cli.h"
+#include "files.h"
+#include "slab_json.h"
+
+/* Passes everywhere before tiles are told apart: with fewer, a pilot misses light. */
+enum { PILOT = 4 };
+
+static const char all_effects[] = "interreflection caustics extended_source deep_trace";
+
+struct bake_state {
+  struct povray povray;
+  struct lamp_source source;
+  struct lamp lamp;
+  struct bake_store store;
+  struct bake_tiles tiles;
+  struct bake_round pilot, rest;
+  struct bake_sum *sum;
+  char effects[256];
+};
+
+static bool has_word(const char *list, const char *word) {
+  size_t n = strlen(word);
+  for (const char *at = list; (at = strstr(at, word)); at += n)
+    if ((at == list || at[-1] == ' ') && (!at[n] || at[n] == ' ')) return true;
+  return false;
+}
+
+/* Which effects are on: the user's word, else the lamp author's, else all. */
+static enum slab_result choose_effects(const struct bake_options *options, struct bake_state *state,
+                                       struct slab_error *error) {
+  const char *wanted = options->effects;
+  if (!strcmp(wanted, "auto")) wanted = state->lamp.needs_declared ? state->lamp.needs : "all";
+  if (!strcmp(wanted, "all")) wanted = all_effects;
+  if (!strcmp(wanted, "none")) wanted = "";
+  snprintf(state->effects, sizeof state->effects, "%s", wanted);
+  char copy[sizeof state->effects], *rest = copy;
+  strcpy(copy, state->effects);
+  for (char *c = copy; *c; ++c)
+    if (*c == ',') *c = ' ';
+  strcpy(state->effects, copy);
+  for (char *word; (word = strsep(&rest, " "));)
+    if (*word && !has_word(all_effects, word))
+      return slab_fail(error, SLAB_BAD, "--effects: \"%s\" is no effect; there are: %s", word, all_effects);
+  return SLAB_OK;
+}
+
+/* A power of two that keeps the picture well inside half float's range. The probe
+ * sees a few thousand rays only, so there is room above what it saw. */
+static double choose_gain(const struct bake_options *options, double peak) {
+  int exponent;
+  if (options->gain > 0) return options->gain;
+  if (isinf(peak)) return 0x1p-16;
+  frexp(peak, &exponent); /* peak < 2^exponent */
+  if (exponent > 13) return ldexp(1, 13 - exponent);
+  if (peak > 0 && exponent < -3) return ldexp(1, -exponent);
+  return 1;
+}
+
+/* The probe rendered as a mesh_camera says whether that works. A process costs about as
+ * much as 16384 meshes or three frames: with far fewer directions than positions, one
+ * image a direction is cheaper. */
+static enum slab_result choose_form(const struct bake_options *options, const struct lamp *lamp, enum bake_form *form, struct slab_error *error) {
+  bool infinite = true;
+  for (int n = 0; n < lamp->slab_count; ++n) infinite &= isinf(lamp->slabs[n].st_distance) != 0;
+  if (options->form >= 0) {
+    *form = (enum bake_form)options->form;
+    if (*form == BAKE_TRANSPOSED && !infinite)
+      return slab_fail(error, SLAB_BAD, "--camera transposed: needs st planes at infinity, since a camera on a finite one would see what stands in front of the lamp");
+    if (*form == BAKE_MESH && !lamp->mesh_camera)
+      return slab_fail(error, SLAB_BAD, "--camera mesh: this POV-Ray's mesh_camera does not show the faces in order; use --camera perspective");
+    return SLAB_OK;
+  }
+  double positions = (double)options->uv[0] * options->uv[1], directions = (double)options->st[0] * options->st[1];
+  if (infinite && (positions > 4096 * directions)) *form = BAKE_TRANSPOSED;
+  else *form = lamp->mesh_camera ? BAKE_MESH : BAKE_PERSPECTIVE;
+  return SLAB_OK;
+}
+
+/* Adds all batches of a round to the sums, in order. */
+static enum slab_result add_round(const struct bake_work *work, const struct bake_round *round, struct bake_sum *sum, struct slab_error *error) {
+  size_t largest = 1;
+  for (size_t n = 0; n < round->batch_count; ++n)
+    if (round->batches[n].rays > largest) largest = round->batches[n].rays;
+  float *rgb = malloc(largest * 3 * sizeof *rgb);
+  if (!rgb) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  enum slab_result result = SLAB_OK;
+  for (size_t n = 0; n < round->batch_count && !result; ++n) {
+    const struct bake_batch *batch = &round->batches[n];
+    result = bake_run_read(work, round, n, rgb, error);
+    const float *at = rgb;
+    for (size_t unit = batch->first; !result && unit < batch->first + batch->count;) {
+      const struct bake_box *box = &round->boxes[round->units[unit].box];
+      int pass = round->units[unit].pass;
+      size_t rays = (size_t)bake_box_rays(box);
+      bool pair = unit + 1 < batch->first + batch->count && round->units[unit + 1].pass == pass + 1 && round->units[unit + 1].box == round->units[unit].box;
+      bake_sum_add(sum, box, pass, at, pair ? at + 3 * rays : NULL);
+      at += (pair ? 6 : 3) * rays;
+      unit += pair ? 2 : 1;
+    }
+  }
+  free(rgb);
+  return result;
+}
+
+/* Renders and sums. A shard needs the whole pilot to plan by, but only its own part of
+ * the round after that, and sums nothing of it. */
+static enum slab_result do_rounds(const struct bake_work *work, struct bake_state *state, struct bake_report *report, struct slab_error *error) {
+  const struct bake_options *options = work->options;
+  bool adaptive = !options->uniform && options->rays > PILOT;
+  int passes = adaptive ? PILOT : options->rays;
+  int tiles = bake_tile_count(&state->tiles);
+  enum slab_result result = bake_sum_new(&state->tiles, adaptive ? options->rays_max : passes, &state->sum, error);
+  if (!result) result = bake_plan_pilot(&state->tiles, passes, work->look.form, &state->pilot, error);
+  if (!result) result = bake_run(work, &state->pilot, adaptive, adaptive ? "pilot" : "bake", report, error);
+  bool shard = options->shards > 1;
+  if (!result && (adaptive || !shard)) result = add_round(work, &state->pilot, state->sum, error);
+  if (result || !adaptive) return result;
+  double *deviation = malloc((size_t)tiles * sizeof *deviation);
+  int *wanted = malloc((size_t)tiles * sizeof *wanted);
+  if (!deviation || !wanted) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (!result) result = bake_sum_deviation(state->sum, deviation, error);
+  if (!result) result = bake_plan_allocate(&state->tiles, deviation, PILOT, options->rays, options->rays_max, wanted, error);
+  if (!result) result = bake_plan_rest(&state->tiles, wanted, PILOT, work->look.form, &state->rest, error);
+  free(deviation);
+  free(wanted);
+  if (!result) result = bake_run(work, &state->rest, false, "bake", report, error);
+  if (!result && !shard) result = add_round(work, &state->rest, state->sum, error);
+  return result;
+}
+
+/* ---- The slab ---- */
+
+static json_t *effects_json(const char *effects) {
+  json_t *object = json_object();
+  char words[sizeof all_effects], *rest = strcpy(words, all_effects);
+  for (char *word; (word = strsep(&rest, " "));)
+    json_object_set_new(object, word, json_string(has_word(effects, word) ? "on" : "off"));
+  return object;
+}
+
+static char *provenance_text(const struct bake_work *work, const struct bake_noise *noise) {
+  static const char *const forms[] = {"mesh", "perspective", "transposed"};
+  json_t *object = json_pack("{s:s, s:s, s:s, s:o, s:s, s:f, s:f}", "command", work->options->command, "tool", "bakeslab " BAKESLAB_VERSION, "renderer", work->povray->version, "effects", effects_json(work->look.effects), "camera", forms[work->look.form], "gain", work->look.gain, "rays", noise->rays);
+  if (noise->known)
+    json_object_set_new(object, "noise", json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean", noise->mean != 0 ? noise->sample / noise->mean : 0, "flux", noise->flux));
+  char *text = json_dumps(object, JSON_COMPACT);
+  json_decref(object);
+  return text;
+}
+
+static enum slab_result write_slab(const struct bake_work *work, struct bake_state *state, struct slab_error *error) {
+  const struct bake_options *options = work->options;
+  struct slab *pages = state->lamp.slabs;
+  int count = state->lamp.slab_count;
+  struct bake_noise noise;
+  bake_sum_noise(state->sum, work->look.gain, &noise);
+  enum slab_result result = bake_sum_finish(state->sum, work->look.gain, pages, error);
+  char *text = provenance_text(work, &noise);
+  if (!result && !text) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  for (int n = 0; n < count && !result; ++n) {
+    result = slab_json_set(&pages[n], "provenance", text, error);
+    if (!result) result = slab_json_set(&pages[n], "samples_are", options->centre ? "\"points\"" : "\"cell_means\"", error);
+  }
+  free(text);
+  return result ? result : slab_file_write(options->output, pages, count, options->precision, error);
+}
+
+static enum slab_result probe_lamp(const struct bake_options *options, struct bake_state *state, struct slab_error *error) {
+  char *scratch = bake_store_scratch(&state->store, "probe");
+  enum slab_result result = scratch ? lamp_probe(&state->povray, &state->source, scratch, &state->lamp, error) : slab_fail(error, SLAB_MEMORY, "out of memory");
+  free(scratch);
+  for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
+    int *samples = state->lamp.slabs[n].samples;
+    memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]}, SLAB_AXES * sizeof *samples);
+    result = slab_check(&state->lamp.slabs[n], error);
+  }
+  return result;
+}
+
+enum slab_result bake(const struct bake_options *options, const volatile sig_atomic_t *stop, struct bake_report *report, struct slab_error *error) {
+  struct bake_state state = {.store = {.lock = -1}};
+  *report = (struct bake_report){0};
+  struct bake_work work = {.options = options, .povray = &state.povray, .source = &state.source, .lamp = &state.lamp, .store = &state.store, .stop = stop};
+  enum slab_result result = povray_find(options->povray, &state.povray, error);
+  if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
+  if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
+  if (!result) result = probe_lamp(options, &state, error);
+  if (!result) result = choose_effects(options, &state, error);
+  if (!result) result = choose_form(options, &state.lamp, &work.look.form, error);
+  if (!result) result = bake_tiles_init(&state.tiles, state.lamp.slabs, state.lamp.slab_count, work.look.form == BAKE_TRANSPOSED, error);
+  if (!result) {
+    work.slabs = state.lamp.slabs;
+    work.look.defect_rows = state.lamp.defect_rows;
+    work.look.centre = options->centre;
+    work.look.gain = choose_gain(options, state.lamp.peak);
+    work.look.effects = state.effects;
+    work.look.interreflection = has_word(state.effects, "interreflection");
+    work.check_photons = has_word(state.effects, "caustics") && strcmp(options->effects, "all") != 0;
+    result = do_rounds(&work, &state, report, error);
+  }
+  /* A shard leaves the slab to the run without --shard. */
+  report->assembled = options->shards == 1;
+  if (!result && report->assembled) result = write_slab(&work, &state, error);
+  bake_store_close(&state.store, !result && report->assembled);
+  bake_sum_free(state.sum);
+  bake_round_free(&state.pilot);
+  bake_round_free(&state.rest);
+  bake_tiles_free(&state.tiles);
+  lamp_free(&state.lamp);
+  lamp_source_free(&state.source);
+  return result;
+}

@@ -1,0 +1,47 @@
+/* bake.h - renders a lamp script into light slabs with the stock POV-Ray.
+ *
+ * Probe (lamp.h), pilot passes everywhere, the rest of the passes where the pilot
+ * was noisy (bake_plan.h), all in batches of keyed, verified folders (bake_store.h)
+ * by several POV-Ray processes; then sums (bake_sum.h) and the slab. The same options
+ * give the same samples, bit for bit, for any number of jobs and shards. */
+#ifndef BAKE_H
+#define BAKE_H
+
+#include <signal.h>
+
+#include "bake_scene.h"
+#include "lamp.h"
+#include "slab_file.h"
+
+struct bake_options {
+  const char *lamp, *output;
+  const char *povray;           /* program */
+  const char *const *libraries; /* Library_Path, NULL-terminated, or NULL */
+  int uv[2], st[2];
+  int rays;                     /* passes: 1 or an even number; the mean where adaptive */
+  int rays_max;                 /* for the noisiest tiles */
+  bool centre;                  /* one ray through each sample's centre */
+  bool uniform;                 /* the same passes everywhere */
+  const char *effects;          /* "auto", "all", "none" or a list of words */
+  double gain;                  /* 0: from the probe */
+  int form;                     /* an enum bake_form, or -1: the cheapest */
+  int jobs;
+  int shard, shards;            /* this process bakes batches shard, shard+shards, ... */
+  enum slab_precision precision;
+  bool quiet;
+  const char *command;          /* for the provenance */
+};
+
+struct bake_report {
+  double rays;        /* shot in this run */
+  int batches, found; /* of this bake; found finished by an earlier run */
+  bool assembled;     /* false: a shard, which leaves that to the run without */
+  double cpu;         /* seconds of POV-Ray in this run */
+};
+
+/* Bakes. `stop`, set by a signal handler, ends it with SLAB_STOPPED; finished
+ * batches stay in OUTPUT.partial and the next bake goes on from there. */
+enum slab_result bake(const struct bake_options *options, const volatile sig_atomic_t *stop,
+                      struct bake_report *report, struct slab_error *error);
+
+#endif

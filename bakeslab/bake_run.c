@@ -1,0 +1,277 @@
+/* bake_run.c - see bake_run.h. */
+#include "bake_run.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "files.h"
+
+/* A process that has rendered its last pixel only writes its file and waits for
+ * itself: the next one may start. */
+enum process_state { IDLE, RENDERING, CLOSING };
+
+struct process {
+  enum process_state state;
+  pid_t pid;
+  size_t batch;
+  char key[33];
+  char *scratch;
+  struct povray_job job; /* directory is scratch */
+};
+
+struct run {
+  const struct bake_work *work;
+  const struct bake_round *round;
+  struct lamp_library library;
+  struct process *processes; /* 2 * jobs: as many may be closing as are rendering */
+  int slots;
+  float *rgb; /* room for the largest batch, to verify it */
+  size_t *order; /* batches to render, in this order */
+  size_t count, next;
+  size_t rays_done, rays_all;
+  struct progress progress;
+};
+
+/* The scene of a batch, and the key under which the store has it. */
+static char *batch_text(const struct bake_work *work, const struct bake_round *round, size_t batch,
+                        struct povray_job *job, char key[33]) {
+  *job = (struct povray_job){0};
+  bake_scene_size(&work->look, round, &round->batches[batch], job);
+  char *text = bake_scene_text(&work->look, work->slabs, work->lamp->slab_count, round,
+                               &round->batches[batch]);
+  if (text) bake_store_key(key, text, work->lamp->reads_key, work->povray->version, NULL);
+  return text;
+}
+
+enum slab_result bake_run_read(const struct bake_work *work, const struct bake_round *round,
+                               size_t batch, float *rgb, struct slab_error *error) {
+  struct povray_job job;
+  char key[33];
+  char *text = batch_text(work, round, batch, &job, key);
+  char *path = text ? bake_store_path(work->store, key) : NULL;
+  job.directory = path;
+  enum slab_result result =
+      path ? bake_scene_read(&work->look, round, &round->batches[batch], &job, rgb, error)
+           : slab_fail(error, SLAB_MEMORY, "out of memory");
+  free(path);
+  free(text);
+  return result;
+}
+
+/* ---- Starting and ending processes ---- */
+
+static enum slab_result start_batch(struct run *run, struct process *process, size_t batch,
+                                    struct slab_error *error) {
+  const struct bake_work *work = run->work;
+  *process = (struct process){.batch = batch};
+  char *text = batch_text(work, run->round, batch, &process->job, process->key);
+  process->scratch = text ? bake_store_scratch(work->store, process->key) : NULL;
+  process->job.directory = process->scratch;
+  process->job.library = run->library.paths;
+  enum slab_result result = SLAB_OK;
+  if (!process->scratch) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (!result) files_remove_tree(process->scratch);
+  if (!result) result = lamp_source_link(work->source, process->scratch, error);
+  if (!result) result = files_write(process->scratch, "scene.pov", text, error);
+  if (!result) result = povray_start(work->povray, &process->job, &process->pid, error);
+  free(text);
+  if (!result) {
+    process->state = RENDERING;
+    return SLAB_OK;
+  }
+  if (process->scratch) files_remove_tree(process->scratch);
+  free(process->scratch);
+  *process = (struct process){0};
+  return result;
+}
+
+/* POV-Ray dies of a full disk without saying so. */
+static enum slab_result explain_full_disk(const struct bake_store *store, enum slab_result result,
+                                          struct slab_error *error) {
+  struct statvfs disk;
+  if (result == SLAB_STOPPED || statvfs(store->directory, &disk) != 0) return result;
+  if ((double)disk.f_bavail * (double)disk.f_frsize > 1 << 20) return result;
+  return slab_fail(error, SLAB_IO,
+                   "%s: the disk is full; make room and run the same command again, it goes on "
+                   "from the finished batches",
+                   store->directory);
+}
+
+/* Photons that miss their targets are silent in POV-Ray, and lose the light. */
+static enum slab_result check_photons(const struct run *run, const struct process *process,
+                                      struct slab_error *error) {
+  enum { TOO_FEW = 1000 };
+  if (!run->work->check_photons) return SLAB_OK;
+  double shot = povray_statistic(process->scratch, "Number of photons shot:");
+  double stored = povray_statistic(process->scratch, "Surface photons stored:");
+  if (shot >= TOO_FEW && stored > 0) return SLAB_OK;
+  return slab_fail(error, SLAB_BAD,
+                   "%s: caustics: POV-Ray shot %.0f photons and stored %.0f; give the glass or "
+                   "mirror `photons { target ... }`, keep its centre off the bulb's, or leave "
+                   "caustics out of --effects",
+                   run->work->options->lamp, shot > 0 ? shot : 0, stored > 0 ? stored : 0);
+}
+
+static enum slab_result end_batch(struct run *run, struct process *process, int status,
+                                  struct slab_error *error) {
+  const struct bake_work *work = run->work;
+  const struct bake_batch *batch = &run->round->batches[process->batch];
+  enum slab_result result = povray_finish(&process->job, status, error);
+  if (result) lamp_source_rename(work->source, error);
+  if (!result)
+    result = bake_scene_read(&work->look, run->round, batch, &process->job, run->rgb, error);
+  if (!result) result = check_photons(run, process, error);
+  if (!result) result = bake_store_commit(work->store, process->key, error);
+  if (result) result = explain_full_disk(work->store, result, error);
+  if (result) files_remove_tree(process->scratch);
+  free(process->scratch);
+  *process = (struct process){0};
+  run->rays_done += batch->rays;
+  return result;
+}
+
+static void kill_all(struct run *run) {
+  for (int n = 0; n < run->slots; ++n) {
+    struct process *process = &run->processes[n];
+    if (process->state == IDLE) continue;
+    kill(process->pid, SIGKILL);
+    while (waitpid(process->pid, NULL, 0) < 0 && errno == EINTR) continue;
+    files_remove_tree(process->scratch);
+    free(process->scratch);
+    *process = (struct process){0};
+  }
+}
+
+/* ---- The loop ---- */
+
+static bool is_verified(struct run *run, size_t batch, const char *key) {
+  if (!bake_store_has(run->work->store, key)) return false;
+  if (bake_run_read(run->work, run->round, batch, run->rgb, NULL) == SLAB_OK) return true;
+  char *path = bake_store_path(run->work->store, key);
+  if (path) files_remove_tree(path); /* damaged: bake it again */
+  free(path);
+  return false;
+}
+
+/* Moves `next` to a batch that the store lacks. */
+static void skip_found(struct run *run, struct bake_report *report) {
+  for (; run->next < run->count; ++run->next) {
+    size_t batch = run->order[run->next];
+    struct povray_job job;
+    char key[33];
+    char *text = batch_text(run->work, run->round, batch, &job, key);
+    bool found = text && is_verified(run, batch, key);
+    free(text);
+    if (!found) return;
+    ++report->found;
+    run->rays_done += run->round->batches[batch].rays;
+    run->progress.start_part = (double)run->rays_done / (double)run->rays_all;
+  }
+}
+
+static int count_rendering(const struct run *run, double *rays) {
+  int rendering = 0;
+  *rays = (double)run->rays_done;
+  for (int n = 0; n < run->slots; ++n) {
+    struct process *process = &run->processes[n];
+    if (process->state == IDLE) continue;
+    double part = povray_progress(process->scratch);
+    if (part >= 1) process->state = CLOSING;
+    rendering += process->state == RENDERING;
+    *rays += part * (double)run->round->batches[process->batch].rays;
+  }
+  return rendering;
+}
+
+static struct process *idle_process(struct run *run) {
+  for (int n = 0; n < run->slots; ++n)
+    if (run->processes[n].state == IDLE) return &run->processes[n];
+  return NULL;
+}
+
+static enum slab_result collect(struct run *run, struct bake_report *report,
+                                struct slab_error *error) {
+  for (int n = 0; n < run->slots; ++n) {
+    struct process *process = &run->processes[n];
+    int status;
+    struct rusage usage;
+    if (process->state == IDLE || wait4(process->pid, &status, WNOHANG, &usage) != process->pid)
+      continue;
+    report->cpu += (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                   1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+    report->rays += (double)run->round->batches[process->batch].rays;
+    enum slab_result result = end_batch(run, process, status, error);
+    if (result) return result;
+  }
+  return SLAB_OK;
+}
+
+static enum slab_result loop(struct run *run, const char *label, struct bake_report *report,
+                             struct slab_error *error) {
+  for (;;) {
+    if (*run->work->stop)
+      return slab_fail(error, SLAB_STOPPED,
+                       "interrupted; finished batches are in %s, and the same command goes on "
+                       "from them",
+                       run->work->store->directory);
+    enum slab_result result = collect(run, report, error);
+    if (result) return result;
+    double rays;
+    int rendering = count_rendering(run, &rays);
+    progress_show(&run->progress, rays / (double)run->rays_all, label);
+    for (; rendering < run->work->options->jobs; ++rendering) {
+      struct process *process = idle_process(run);
+      if (process) skip_found(run, report);
+      if (!process || run->next == run->count) break;
+      result = start_batch(run, process, run->order[run->next++], error);
+      if (result) return explain_full_disk(run->work->store, result, error);
+    }
+    bool busy = false;
+    for (int n = 0; n < run->slots; ++n) busy |= run->processes[n].state != IDLE;
+    if (!busy && run->next == run->count) return SLAB_OK;
+    nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+  }
+}
+
+/* This shard's batches first, then the others'. Returns the rays of the largest. */
+static size_t put_in_order(struct run *run, bool whole) {
+  size_t largest = 1, shards = (size_t)run->work->options->shards;
+  for (size_t turn = 0; turn < (whole ? shards : 1); ++turn)
+    for (size_t n = ((size_t)run->work->options->shard + turn) % shards;
+         n < run->round->batch_count; n += shards) {
+      run->order[run->count++] = n;
+      run->rays_all += run->round->batches[n].rays;
+      if (run->round->batches[n].rays > largest) largest = run->round->batches[n].rays;
+    }
+  return largest;
+}
+
+enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round, bool whole,
+                          const char *label, struct bake_report *report,
+                          struct slab_error *error) {
+  struct run run = {.work = work, .round = round, .slots = 2 * work->options->jobs};
+  run.processes = calloc((size_t)run.slots, sizeof *run.processes);
+  run.order = malloc((round->batch_count + 1) * sizeof *run.order);
+  size_t largest = run.order ? put_in_order(&run, whole) : 1;
+  run.rgb = malloc(largest * 3 * sizeof *run.rgb);
+  report->batches += (int)run.count;
+  lamp_source_library(work->source, &run.library);
+  enum slab_result result = SLAB_OK;
+  if (!run.processes || !run.order || !run.rgb)
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  progress_start(&run.progress, work->options->quiet, 0);
+  if (!result) result = loop(&run, label, report, error);
+  if (run.processes) kill_all(&run);
+  progress_end(&run.progress);
+  free(run.processes);
+  free(run.order);
+  free(run.rgb);
+  return result;
+}

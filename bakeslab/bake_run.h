@@ -1,0 +1,33 @@
+/* bake_run.h - renders the batches of a round by several POV-Ray processes. */
+#ifndef BAKE_RUN_H
+#define BAKE_RUN_H
+
+#include "bake.h"
+#include "bake_store.h"
+#include "progress.h"
+
+/* All that a round needs besides itself; nothing is owned. */
+struct bake_work {
+  const struct bake_options *options;
+  const struct povray *povray;
+  const struct lamp_source *source;
+  const struct lamp *lamp;
+  const struct bake_store *store;
+  const struct slab *slabs; /* lamp->slab_count of them */
+  struct bake_look look;
+  bool check_photons; /* photons that shot nothing are an error */
+  const volatile sig_atomic_t *stop;
+};
+
+/* Renders what the store lacks: this shard's batches and, where `whole`, then those of
+ * the other shards too. On an error or a stop all processes end and their scratch folders
+ * go; finished batches stay. */
+enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round, bool whole,
+                          const char *label, struct bake_report *report,
+                          struct slab_error *error);
+
+/* Reads a finished batch; rgb as bake_scene_read fills it. */
+enum slab_result bake_run_read(const struct bake_work *work, const struct bake_round *round,
+                               size_t batch, float *rgb, struct slab_error *error);
+
+#endif
