@@ -18,7 +18,7 @@ Canned_Metres_Per_Unit(0.01)
 Canned_Radiance_Unit("W/(sr m2)")
 Canned_Needs("interreflection")
 Canned_Slab(<0, 0, 0>, <2*Radius, 0, 0>, <0, 0, 2*Radius>, <0, -1, 0>, <-1.5, 1.5, -1.5, 1.5>, 0)
-Canned_Bulb(<0, Depth - Focus, 0>, 0.4, 5000)
+Canned_Bulb(<0, Depth - Focus, 0>, 1.5, 500)
 
 // r^2 = 4 f (Depth - y)
 #declare Bowl = quadric { <1, 0, 1>, <0, 0, 0>, <0, 4*Focus, 0>, -4*Focus*Depth }
