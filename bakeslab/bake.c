@@ -51,7 +51,8 @@ static enum slab_result choose_effects(const struct bake_options *options, struc
   strcpy(state->effects, copy);
   for (char *word; (word = strsep(&rest, " "));)
     if (*word && !has_word(all_effects, word))
-      return slab_fail(error, SLAB_BAD, "--effects: \"%s\" is no effect; there are: %s", word, all_effects);
+      return slab_fail(error, SLAB_BAD, "--effects: \"%s\" is no effect; there are: %s", word,
+                       all_effects);
   return SLAB_OK;
 }
 
@@ -70,25 +71,34 @@ static double choose_gain(const struct bake_options *options, double peak) {
 /* The probe rendered as a mesh_camera says whether that works. A process costs about as
  * much as 16384 meshes or three frames: with far fewer directions than positions, one
  * image a direction is cheaper. */
-static enum slab_result choose_form(const struct bake_options *options, const struct lamp *lamp, enum bake_form *form, struct slab_error *error) {
+static enum slab_result choose_form(const struct bake_options *options, const struct lamp *lamp,
+                                    enum bake_form *form, struct slab_error *error) {
   bool infinite = true;
   for (int n = 0; n < lamp->slab_count; ++n) infinite &= isinf(lamp->slabs[n].st_distance) != 0;
   if (options->form >= 0) {
     *form = (enum bake_form)options->form;
     if (*form == BAKE_TRANSPOSED && !infinite)
-      return slab_fail(error, SLAB_BAD, "--camera transposed: needs st planes at infinity, since a camera on a finite one would see what stands in front of the lamp");
+      return slab_fail(error, SLAB_BAD,
+                       "--camera transposed: needs st planes at infinity, since a camera on a "
+                       "finite one would see what stands in front of the lamp");
     if (*form == BAKE_MESH && !lamp->mesh_camera)
-      return slab_fail(error, SLAB_BAD, "--camera mesh: this POV-Ray's mesh_camera does not show the faces in order; use --camera perspective");
+      return slab_fail(error, SLAB_BAD,
+                       "--camera mesh: this POV-Ray's mesh_camera does not show the faces in "
+                       "order; use --camera perspective");
     return SLAB_OK;
   }
-  double positions = (double)options->uv[0] * options->uv[1], directions = (double)options->st[0] * options->st[1];
-  if (infinite && (positions > 4096 * directions)) *form = BAKE_TRANSPOSED;
-  else *form = lamp->mesh_camera ? BAKE_MESH : BAKE_PERSPECTIVE;
+  double positions = (double)options->uv[0] * options->uv[1],
+         directions = (double)options->st[0] * options->st[1];
+  if (infinite && (positions > 4096 * directions))
+    *form = BAKE_TRANSPOSED;
+  else
+    *form = lamp->mesh_camera ? BAKE_MESH : BAKE_PERSPECTIVE;
   return SLAB_OK;
 }
 
 /* Adds all batches of a round to the sums, in order. */
-static enum slab_result add_round(const struct bake_work *work, const struct bake_round *round, struct bake_sum *sum, struct slab_error *error) {
+static enum slab_result add_round(const struct bake_work *work, const struct bake_round *round,
+                                  struct bake_sum *sum, struct slab_error *error) {
   size_t largest = 1;
   for (size_t n = 0; n < round->batch_count; ++n)
     if (round->batches[n].rays > largest) largest = round->batches[n].rays;
@@ -103,7 +113,9 @@ static enum slab_result add_round(const struct bake_work *work, const struct bak
       const struct bake_box *box = &round->boxes[round->units[unit].box];
       int pass = round->units[unit].pass;
       size_t rays = (size_t)bake_box_rays(box);
-      bool pair = unit + 1 < batch->first + batch->count && round->units[unit + 1].pass == pass + 1 && round->units[unit + 1].box == round->units[unit].box;
+      bool pair = unit + 1 < batch->first + batch->count &&
+                  round->units[unit + 1].pass == pass + 1 &&
+                  round->units[unit + 1].box == round->units[unit].box;
       bake_sum_add(sum, box, pass, at, pair ? at + 3 * rays : NULL);
       at += (pair ? 6 : 3) * rays;
       unit += pair ? 2 : 1;
@@ -115,14 +127,18 @@ static enum slab_result add_round(const struct bake_work *work, const struct bak
 
 /* Renders and sums. A shard needs the whole pilot to plan by, but only its own part of
  * the round after that, and sums nothing of it. */
-static enum slab_result do_rounds(const struct bake_work *work, struct bake_state *state, struct bake_report *report, struct slab_error *error) {
+static enum slab_result do_rounds(const struct bake_work *work, struct bake_state *state,
+                                  struct bake_report *report, struct slab_error *error) {
   const struct bake_options *options = work->options;
   bool adaptive = !options->uniform && options->rays > PILOT;
   int passes = adaptive ? PILOT : options->rays;
   int tiles = bake_tile_count(&state->tiles);
-  enum slab_result result = bake_sum_new(&state->tiles, adaptive ? options->rays_max : passes, &state->sum, error);
-  if (!result) result = bake_plan_pilot(&state->tiles, passes, work->look.form, &state->pilot, error);
-  if (!result) result = bake_run(work, &state->pilot, adaptive, adaptive ? "pilot" : "bake", report, error);
+  enum slab_result result =
+      bake_sum_new(&state->tiles, adaptive ? options->rays_max : passes, &state->sum, error);
+  if (!result)
+    result = bake_plan_pilot(&state->tiles, passes, work->look.form, &state->pilot, error);
+  if (!result)
+    result = bake_run(work, &state->pilot, adaptive, adaptive ? "pilot" : "bake", report, error);
   bool shard = options->shards > 1;
   if (!result && (adaptive || !shard)) result = add_round(work, &state->pilot, state->sum, error);
   if (result || !adaptive) return result;
@@ -130,8 +146,11 @@ static enum slab_result do_rounds(const struct bake_work *work, struct bake_stat
   int *wanted = malloc((size_t)tiles * sizeof *wanted);
   if (!deviation || !wanted) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   if (!result) result = bake_sum_deviation(state->sum, deviation, error);
-  if (!result) result = bake_plan_allocate(&state->tiles, deviation, PILOT, options->rays, options->rays_max, wanted, error);
-  if (!result) result = bake_plan_rest(&state->tiles, wanted, PILOT, work->look.form, &state->rest, error);
+  if (!result)
+    result = bake_plan_allocate(&state->tiles, deviation, PILOT, options->rays, options->rays_max,
+                                wanted, error);
+  if (!result)
+    result = bake_plan_rest(&state->tiles, wanted, PILOT, work->look.form, &state->rest, error);
   free(deviation);
   free(wanted);
   if (!result) result = bake_run(work, &state->rest, false, "bake", report, error);
@@ -151,15 +170,23 @@ static json_t *effects_json(const char *effects) {
 
 static char *provenance_text(const struct bake_work *work, const struct bake_noise *noise) {
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
-  json_t *object = json_pack("{s:s, s:s, s:s, s:o, s:s, s:f, s:f}", "command", work->options->command, "tool", "bakeslab " BAKESLAB_VERSION, "renderer", work->povray->version, "effects", effects_json(work->look.effects), "camera", forms[work->look.form], "gain", work->look.gain, "rays", noise->rays);
+  json_t *object =
+      json_pack("{s:s, s:s, s:s, s:o, s:s, s:f, s:f}", "command", work->options->command, "tool",
+                "bakeslab " BAKESLAB_VERSION, "renderer", work->povray->version, "effects",
+                effects_json(work->look.effects), "camera", forms[work->look.form], "gain",
+                work->look.gain, "rays", noise->rays);
   if (noise->known)
-    json_object_set_new(object, "noise", json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean", noise->mean != 0 ? noise->sample / noise->mean : 0, "flux", noise->flux));
+    json_object_set_new(object, "noise",
+                        json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean",
+                                  noise->mean != 0 ? noise->sample / noise->mean : 0, "flux",
+                                  noise->flux));
   char *text = json_dumps(object, JSON_COMPACT);
   json_decref(object);
   return text;
 }
 
-static enum slab_result write_slab(const struct bake_work *work, struct bake_state *state, struct slab_error *error) {
+static enum slab_result write_slab(const struct bake_work *work, struct bake_state *state,
+                                   struct slab_error *error) {
   const struct bake_options *options = work->options;
   struct slab *pages = state->lamp.slabs;
   int count = state->lamp.slab_count;
@@ -170,35 +197,50 @@ static enum slab_result write_slab(const struct bake_work *work, struct bake_sta
   if (!result && !text) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int n = 0; n < count && !result; ++n) {
     result = slab_json_set(&pages[n], "provenance", text, error);
-    if (!result) result = slab_json_set(&pages[n], "samples_are", options->centre ? "\"points\"" : "\"cell_means\"", error);
+    if (!result)
+      result = slab_json_set(&pages[n], "samples_are",
+                             options->centre ? "\"points\"" : "\"cell_means\"", error);
   }
   free(text);
-  return result ? result : slab_file_write(options->output, pages, count, options->precision, error);
+  return result ? result
+                : slab_file_write(options->output, pages, count, options->precision, error);
 }
 
-static enum slab_result probe_lamp(const struct bake_options *options, struct bake_state *state, struct slab_error *error) {
+static enum slab_result probe_lamp(const struct bake_options *options, struct bake_state *state,
+                                   struct slab_error *error) {
   char *scratch = bake_store_scratch(&state->store, "probe");
-  enum slab_result result = scratch ? lamp_probe(&state->povray, &state->source, scratch, &state->lamp, error) : slab_fail(error, SLAB_MEMORY, "out of memory");
+  enum slab_result result =
+      scratch ? lamp_probe(&state->povray, &state->source, scratch, &state->lamp, error)
+              : slab_fail(error, SLAB_MEMORY, "out of memory");
   free(scratch);
   for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
     int *samples = state->lamp.slabs[n].samples;
-    memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]}, SLAB_AXES * sizeof *samples);
+    memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]},
+           SLAB_AXES * sizeof *samples);
     result = slab_check(&state->lamp.slabs[n], error);
   }
   return result;
 }
 
-enum slab_result bake(const struct bake_options *options, const volatile sig_atomic_t *stop, struct bake_report *report, struct slab_error *error) {
+enum slab_result bake(const struct bake_options *options, const volatile sig_atomic_t *stop,
+                      struct bake_report *report, struct slab_error *error) {
   struct bake_state state = {.store = {.lock = -1}};
   *report = (struct bake_report){0};
-  struct bake_work work = {.options = options, .povray = &state.povray, .source = &state.source, .lamp = &state.lamp, .store = &state.store, .stop = stop};
+  struct bake_work work = {.options = options,
+                           .povray = &state.povray,
+                           .source = &state.source,
+                           .lamp = &state.lamp,
+                           .store = &state.store,
+                           .stop = stop};
   enum slab_result result = povray_find(options->povray, &state.povray, error);
   if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
   if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
   if (!result) result = probe_lamp(options, &state, error);
   if (!result) result = choose_effects(options, &state, error);
   if (!result) result = choose_form(options, &state.lamp, &work.look.form, error);
-  if (!result) result = bake_tiles_init(&state.tiles, state.lamp.slabs, state.lamp.slab_count, work.look.form == BAKE_TRANSPOSED, error);
+  if (!result)
+    result = bake_tiles_init(&state.tiles, state.lamp.slabs, state.lamp.slab_count,
+                             work.look.form == BAKE_TRANSPOSED, error);
   if (!result) {
     work.slabs = state.lamp.slabs;
     work.look.defect_rows = state.lamp.defect_rows;
@@ -206,7 +248,8 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
     work.look.gain = choose_gain(options, state.lamp.peak);
     work.look.effects = state.effects;
     work.look.interreflection = has_word(state.effects, "interreflection");
-    work.check_photons = has_word(state.effects, "caustics") && strcmp(options->effects, "all") != 0;
+    work.check_photons =
+        has_word(state.effects, "caustics") && strcmp(options->effects, "all") != 0;
     result = do_rounds(&work, &state, report, error);
   }
   /* A shard leaves the slab to the run without --shard. */

@@ -18,18 +18,18 @@ struct bake_options {
   const char *povray;           /* program */
   const char *const *libraries; /* Library_Path, NULL-terminated, or NULL */
   int uv[2], st[2];
-  int rays;                     /* passes: 1 or an even number; the mean where adaptive */
-  int rays_max;                 /* for the noisiest tiles */
-  bool centre;                  /* one ray through each sample's centre */
-  bool uniform;                 /* the same passes everywhere */
-  const char *effects;          /* "auto", "all", "none" or a list of words */
-  double gain;                  /* 0: from the probe */
-  int form;                     /* an enum bake_form, or -1: the cheapest */
+  int rays;            /* passes: 1 or an even number; the mean where adaptive */
+  int rays_max;        /* for the noisiest tiles */
+  bool centre;         /* one ray through each sample's centre */
+  bool uniform;        /* the same passes everywhere */
+  const char *effects; /* "auto", "all", "none" or a list of words */
+  double gain;         /* 0: from the probe */
+  int form;            /* an enum bake_form, or -1: the cheapest */
   int jobs;
-  int shard, shards;            /* this process bakes batches shard, shard+shards, ... */
+  int shard, shards; /* this process bakes batches shard, shard+shards, ... */
   enum slab_precision precision;
   bool quiet;
-  const char *command;          /* for the provenance */
+  const char *command; /* for the provenance */
 };
 
 struct bake_report {

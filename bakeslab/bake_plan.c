@@ -15,7 +15,8 @@ enum { TILE = 16 };
 
 /* Width of a tile along an axis. */
 static int tile_size(const struct bake_tiles *tiles, int page, int axis) {
-  bool covered = tiles->transposed ? axis == SLAB_U || axis == SLAB_V : axis == SLAB_S || axis == SLAB_T;
+  bool covered =
+      tiles->transposed ? axis == SLAB_U || axis == SLAB_V : axis == SLAB_S || axis == SLAB_T;
   int n = tiles->slabs[page].samples[axis];
   if (!covered) return 1;
   return n < 2 * TILE ? n : TILE;
@@ -28,7 +29,8 @@ void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES
   }
 }
 
-enum slab_result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages, bool transposed, struct slab_error *error) {
+enum slab_result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages,
+                                 bool transposed, struct slab_error *error) {
   *tiles = (struct bake_tiles){.pages = pages, .slabs = slabs, .transposed = transposed};
   tiles->first_tile = calloc((size_t)pages + 1, sizeof *tiles->first_tile);
   if (!tiles->first_tile) return slab_fail(error, SLAB_MEMORY, "out of memory");
@@ -65,13 +67,15 @@ struct bake_box bake_tile_box(const struct bake_tiles *tiles, int page, const in
 int bake_tile_number(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]) {
   int grid[SLAB_AXES];
   bake_tile_grid(tiles, page, grid);
-  int n = ((at[SLAB_V] * grid[SLAB_U] + at[SLAB_U]) * grid[SLAB_T] + at[SLAB_T]) * grid[SLAB_S] + at[SLAB_S];
+  int n = ((at[SLAB_V] * grid[SLAB_U] + at[SLAB_U]) * grid[SLAB_T] + at[SLAB_T]) * grid[SLAB_S] +
+          at[SLAB_S];
   return tiles->first_tile[page] + n;
 }
 
 int bake_tile_at(const struct bake_tiles *tiles, int page, const int sample[SLAB_AXES]) {
   int at[SLAB_AXES];
-  for (int axis = 0; axis < SLAB_AXES; ++axis) at[axis] = sample[axis] / tile_size(tiles, page, axis);
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    at[axis] = sample[axis] / tile_size(tiles, page, axis);
   return bake_tile_number(tiles, page, at);
 }
 
@@ -120,17 +124,22 @@ static bool same_shape(const struct bake_box *a, const struct bake_box *b) {
 }
 
 /* Whether a unit may join the batch. Frames of an animation are all of one shape. */
-static bool fits(const struct bake_round *round, const struct bake_batch *batch, size_t unit, enum bake_form form) {
+static bool fits(const struct bake_round *round, const struct bake_batch *batch, size_t unit,
+                 enum bake_form form) {
   if (!batch->count) return true;
   const struct bake_box *box = &round->boxes[round->units[unit].box];
   const struct bake_box *first = &round->boxes[round->units[batch->first].box];
-  bool second_of_pair = round->units[unit].pass % 2 && round->units[unit - 1].box == round->units[unit].box;
+  bool second_of_pair =
+      round->units[unit].pass % 2 && round->units[unit - 1].box == round->units[unit].box;
   if (second_of_pair) return true;
-  if (form != BAKE_MESH) return batch->count < BATCH_FRAMES && batch->rays < BATCH_RAYS && same_shape(box, first);
-  return batch->rays < BATCH_RAYS && (batch->count < BATCH_CAMERAS || (batch->rays < BATCH_RAYS / 2 && batch->count < BATCH_TILES));
+  if (form != BAKE_MESH)
+    return batch->count < BATCH_FRAMES && batch->rays < BATCH_RAYS && same_shape(box, first);
+  return batch->rays < BATCH_RAYS && (batch->count < BATCH_CAMERAS ||
+                                      (batch->rays < BATCH_RAYS / 2 && batch->count < BATCH_TILES));
 }
 
-static enum slab_result cut_batches(struct bake_round *round, enum bake_form form, struct slab_error *error) {
+static enum slab_result cut_batches(struct bake_round *round, enum bake_form form,
+                                    struct slab_error *error) {
   for (size_t unit = 0; unit < round->unit_count; ++unit) {
     struct bake_batch *last = round->batch_count ? &round->batches[round->batch_count - 1] : NULL;
     if (!last || !fits(round, last, unit, form)) {
@@ -150,18 +159,21 @@ static enum slab_result cut_batches(struct bake_round *round, enum bake_form for
 static bool add_whole_boxes(const struct bake_tiles *tiles, struct bake_round *round) {
   for (int page = 0; page < tiles->pages; ++page) {
     const int *n = tiles->slabs[page].samples;
-    int slow = tiles->transposed ? n[SLAB_T] : n[SLAB_V], fast = tiles->transposed ? n[SLAB_S] : n[SLAB_U];
+    int slow = tiles->transposed ? n[SLAB_T] : n[SLAB_V],
+        fast = tiles->transposed ? n[SLAB_S] : n[SLAB_U];
     for (int y = 0; y < slow; ++y)
       for (int x = 0; x < fast; ++x) {
         struct bake_box box = {page, {x, y, 0, 0}, {1, 1, n[SLAB_S], n[SLAB_T]}};
-        if (tiles->transposed) box = (struct bake_box){page, {0, 0, x, y}, {n[SLAB_U], n[SLAB_V], 1, 1}};
+        if (tiles->transposed)
+          box = (struct bake_box){page, {0, 0, x, y}, {n[SLAB_U], n[SLAB_V], 1, 1}};
         if (!add_box(round, box)) return false;
       }
   }
   return true;
 }
 
-enum slab_result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form, struct bake_round *round, struct slab_error *error) {
+enum slab_result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
+                                 struct bake_round *round, struct slab_error *error) {
   *round = (struct bake_round){0};
   if (!add_whole_boxes(tiles, round) || !add_passes(round, 0, 0, passes))
     return slab_fail(error, SLAB_MEMORY, "out of memory");
@@ -170,7 +182,8 @@ enum slab_result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enu
 
 /* Covers the tiles of one camera that want more than `passes` by rectangles: runs of
  * tiles along a row, joined with a run of the same extent in the row before. */
-static bool add_covering(const struct bake_tiles *tiles, int page, int camera_at[SLAB_AXES], const int *wanted, int passes, struct bake_round *round) {
+static bool add_covering(const struct bake_tiles *tiles, int page, int camera_at[SLAB_AXES],
+                         const int *wanted, int passes, struct bake_round *round) {
   int x_axis = tiles->transposed ? SLAB_U : SLAB_S, y_axis = tiles->transposed ? SLAB_V : SLAB_T;
   int grid[SLAB_AXES];
   bake_tile_grid(tiles, page, grid);
@@ -186,7 +199,11 @@ static bool add_covering(const struct bake_tiles *tiles, int page, int camera_at
         box.size[x_axis] += bake_tile_box(tiles, page, camera_at).size[x_axis];
       }
       size_t above = first;
-      while (above < round->box_count && !(round->boxes[above].first[x_axis] == box.first[x_axis] && round->boxes[above].size[x_axis] == box.size[x_axis] && round->boxes[above].first[y_axis] + round->boxes[above].size[y_axis] == box.first[y_axis]))
+      while (above < round->box_count &&
+             !(round->boxes[above].first[x_axis] == box.first[x_axis] &&
+               round->boxes[above].size[x_axis] == box.size[x_axis] &&
+               round->boxes[above].first[y_axis] + round->boxes[above].size[y_axis] ==
+                   box.first[y_axis]))
         ++above;
       if (above < round->box_count)
         round->boxes[above].size[y_axis] += box.size[y_axis];
@@ -196,8 +213,10 @@ static bool add_covering(const struct bake_tiles *tiles, int page, int camera_at
   return true;
 }
 
-static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int passes, struct bake_round *round) {
-  int slow_axis = tiles->transposed ? SLAB_T : SLAB_V, fast_axis = tiles->transposed ? SLAB_S : SLAB_U;
+static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int passes,
+                      struct bake_round *round) {
+  int slow_axis = tiles->transposed ? SLAB_T : SLAB_V,
+      fast_axis = tiles->transposed ? SLAB_S : SLAB_U;
   for (int page = 0; page < tiles->pages; ++page) {
     int grid[SLAB_AXES];
     bake_tile_grid(tiles, page, grid);
@@ -211,7 +230,9 @@ static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int pas
   return true;
 }
 
-enum slab_result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, int pilot, enum bake_form form, struct bake_round *round, struct slab_error *error) {
+enum slab_result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, int pilot,
+                                enum bake_form form, struct bake_round *round,
+                                struct slab_error *error) {
   *round = (struct bake_round){0};
   int most = pilot;
   for (int tile = 0; tile < bake_tile_count(tiles); ++tile)

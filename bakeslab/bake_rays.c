@@ -12,8 +12,8 @@ int bake_box_rays(const struct bake_box *box) {
  * of x^5 = x + 1: every prefix of it fills the cell evenly, so that blocks may stop
  * after different numbers of passes. */
 void bake_offset(int pass, bool centre, double offset[SLAB_AXES]) {
-  static const double step[SLAB_AXES] = {0.8566748838545029, 0.7338918566271260,
-                                         0.6287067210378086, 0.5385972572236100};
+  static const double step[SLAB_AXES] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378086,
+                                         0.5385972572236100};
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     double x = 0.5 + (pass / 2 + 1) * step[axis];
     double from_middle = x - floor(x) - 0.5;
@@ -50,7 +50,8 @@ void bake_camera(const struct slab *slab, const struct bake_box *box,
   int x = camera->orthographic ? SLAB_U : SLAB_S, y = camera->orthographic ? SLAB_V : SLAB_T;
   camera->width = box->size[x];
   camera->height = box->size[y];
-  double span_x = camera->width * slab_spacing(slab, x), span_y = camera->height * slab_spacing(slab, y);
+  double span_x = camera->width * slab_spacing(slab, x),
+         span_y = camera->height * slab_spacing(slab, y);
   for (int n = 0; n < 3; ++n) {
     camera->origin[n] = slab->center[n] + at[SLAB_U] * u[n] + at[SLAB_V] * v[n];
     camera->toward[n] = slab->normal[n] + s * u[n] + t * v[n];
@@ -68,7 +69,8 @@ double bake_mesh_epsilon(int width, int height) {
 /* The mesh's normals are (K e, L e, 1), and POV-Ray turns a normal by the inverse of
  * the matrix: its columns must be -(h_s/e) u', -(h_t/e) v' and -toward, with h half a
  * cell. The rows below are the dual basis of these. */
-void bake_camera_matrix(const struct slab *slab, const struct bake_camera *camera, double rows[4][3]) {
+void bake_camera_matrix(const struct slab *slab, const struct bake_camera *camera,
+                        double rows[4][3]) {
   double u[3], v[3];
   unit_axes(slab, u, v);
   double e = bake_mesh_epsilon(camera->width, camera->height);

@@ -32,7 +32,7 @@ struct run {
   struct lamp_library library;
   struct process *processes; /* 2 * jobs: as many may be closing as are rendering */
   int slots;
-  float *rgb; /* room for the largest batch, to verify it */
+  float *rgb;    /* room for the largest batch, to verify it */
   size_t *order; /* batches to render, in this order */
   size_t count, next;
   size_t rays_done, rays_all;
@@ -254,8 +254,7 @@ static size_t put_in_order(struct run *run, bool whole) {
 }
 
 enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round, bool whole,
-                          const char *label, struct bake_report *report,
-                          struct slab_error *error) {
+                          const char *label, struct bake_report *report, struct slab_error *error) {
   struct run run = {.work = work, .round = round, .slots = 2 * work->options->jobs};
   run.processes = calloc((size_t)run.slots, sizeof *run.processes);
   run.order = malloc((round->batch_count + 1) * sizeof *run.order);

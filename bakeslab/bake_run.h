@@ -23,8 +23,7 @@ struct bake_work {
  * the other shards too. On an error or a stop all processes end and their scratch folders
  * go; finished batches stay. */
 enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round, bool whole,
-                          const char *label, struct bake_report *report,
-                          struct slab_error *error);
+                          const char *label, struct bake_report *report, struct slab_error *error);
 
 /* Reads a finished batch; rgb as bake_scene_read fills it. */
 enum slab_result bake_run_read(const struct bake_work *work, const struct bake_round *round,

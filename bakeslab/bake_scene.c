@@ -14,7 +14,8 @@ static const struct bake_box *unit_box(const struct bake_round *round, size_t un
   return &round->boxes[round->units[unit].box];
 }
 
-static void unit_camera(const struct bake_look *look, const struct slab *slabs, const struct bake_round *round, size_t unit, struct bake_camera *camera) {
+static void unit_camera(const struct bake_look *look, const struct slab *slabs,
+                        const struct bake_round *round, size_t unit, struct bake_camera *camera) {
   double offset[SLAB_AXES];
   const struct bake_box *box = unit_box(round, unit);
   bake_offset(round->units[unit].pass, look->centre, offset);
@@ -42,7 +43,8 @@ static void print_filter(FILE *out, double gain, const struct slab *slab) {
   for (int c = 0; c < 5; ++c) {
     double corner[3];
     for (int axis = 0; axis < 3; ++axis)
-      corner[axis] = slab->center[axis] + 0.51 * (at[c][0] * slab->u[axis] + at[c][1] * slab->v[axis]) +
+      corner[axis] = slab->center[axis] +
+                     0.51 * (at[c][0] * slab->u[axis] + at[c][1] * slab->v[axis]) +
                      0.5 * filter_distance(slab) * slab->normal[axis];
     print_vector(out, corner, 1);
   }
@@ -52,10 +54,15 @@ static void print_filter(FILE *out, double gain, const struct slab *slab) {
           gain);
 }
 
-static void print_head(FILE *out, const struct bake_look *look, const struct slab *slabs, int pages, const struct povray_job *job) {
-  fprintf(out, "// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version 3.7;\n#declare Canned_Bake_Effects = \"%s\";\n", look->effects);
+static void print_head(FILE *out, const struct bake_look *look, const struct slab *slabs, int pages,
+                       const struct povray_job *job) {
+  fprintf(out,
+          "// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version "
+          "3.7;\n#declare Canned_Bake_Effects = \"%s\";\n",
+          look->effects);
   if (look->interreflection) /* radiosity's pretrace goes down to about two pixels */
-    fprintf(out, "#declare Canned_Bake_Pretrace = 2/%d;\n", job->height > job->width ? job->height : job->width);
+    fprintf(out, "#declare Canned_Bake_Pretrace = 2/%d;\n",
+            job->height > job->width ? job->height : job->width);
   fputs("#include \"canned_bake.inc\"\n#include \"lamp.pov\"\n", out);
   if (look->gain != 1) {
     fprintf(out, "global_settings { adc_bailout %.17g }\n", fmin(1, look->gain) / 255);
@@ -65,25 +72,28 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
 
 /* ---- Cameras ---- */
 
-static void print_matrix(FILE *out, const struct bake_look *look, const struct slab *slab, const struct bake_camera *camera) {
+static void print_matrix(FILE *out, const struct bake_look *look, const struct slab *slab,
+                         const struct bake_camera *camera) {
   double rows[4][3];
   bake_camera_matrix(slab, camera, rows);
   if (look->gain != 1)
-    for (int axis = 0; axis < 3; ++axis) rows[3][axis] += filter_distance(slab) * slab->normal[axis];
+    for (int axis = 0; axis < 3; ++axis)
+      rows[3][axis] += filter_distance(slab) * slab->normal[axis];
   fputs("matrix <", out);
   for (int n = 0; n < 12; ++n) fprintf(out, "%s%.17g", n ? "," : "", rows[n / 3][n % 3]);
   fputs("> }\n", out);
 }
 
 /* One mesh_camera; each shape of box has its own mesh of directions. */
-static void print_mesh_camera(FILE *out, const struct bake_look *look, const struct slab *slabs, const struct bake_round *round, const struct bake_batch *batch) {
+static void print_mesh_camera(FILE *out, const struct bake_look *look, const struct slab *slabs,
+                              const struct bake_round *round, const struct bake_batch *batch) {
   int width = 0, height = 0;
   for (size_t n = 0; n < batch->count; ++n) {
     const int *size = unit_box(round, batch->first + n)->size;
     if (size[SLAB_S] == width && size[SLAB_T] == height) continue;
     width = size[SLAB_S], height = size[SLAB_T];
-    fprintf(out, "#ifndef (D%dx%d) #declare D%dx%d = Canned_Directions(%d, %d, %.17g) #end\n", width,
-            height, width, height, width, height, bake_mesh_epsilon(width, height));
+    fprintf(out, "#ifndef (D%dx%d) #declare D%dx%d = Canned_Directions(%d, %d, %.17g) #end\n",
+            width, height, width, height, width, height, bake_mesh_epsilon(width, height));
   }
   fputs("camera { mesh_camera { 1 1\n", out);
   for (size_t n = 0; n < batch->count; ++n) {
@@ -97,17 +107,20 @@ static void print_mesh_camera(FILE *out, const struct bake_look *look, const str
 
 /* An animation: frame n looks through camera n. The image's top is the small end of
  * the rows' axis; POV-Ray's sheared cameras are exact (it warns). */
-static void print_animation(FILE *out, const struct bake_look *look, const struct slab *slabs, const struct bake_round *round, const struct bake_batch *batch) {
+static void print_animation(FILE *out, const struct bake_look *look, const struct slab *slabs,
+                            const struct bake_round *round, const struct bake_batch *batch) {
   fputs("#switch (max(1, frame_number))\n", out);
   for (size_t n = 0; n < batch->count; ++n) {
     struct bake_camera camera;
     unit_camera(look, slabs, round, batch->first + n, &camera);
     const struct slab *slab = &slabs[unit_box(round, batch->first + n)->page];
     if (look->gain != 1)
-      for (int axis = 0; axis < 3; ++axis) camera.origin[axis] += filter_distance(slab) * slab->normal[axis];
+      for (int axis = 0; axis < 3; ++axis)
+        camera.origin[axis] += filter_distance(slab) * slab->normal[axis];
     /* Directions are -(toward + across + down); positions are origin + across + down. */
     double sign = camera.orthographic ? 1 : -1;
-    fprintf(out, "#case (%zu) camera { %s location ", n + 1, camera.orthographic ? "orthographic" : "perspective");
+    fprintf(out, "#case (%zu) camera { %s location ", n + 1,
+            camera.orthographic ? "orthographic" : "perspective");
     print_vector(out, camera.origin, 1);
     fputs(" direction ", out);
     print_vector(out, camera.toward, -1);
@@ -120,7 +133,8 @@ static void print_animation(FILE *out, const struct bake_look *look, const struc
   fputs("#end\n", out);
 }
 
-void bake_scene_size(const struct bake_look *look, const struct bake_round *round, const struct bake_batch *batch, struct povray_job *job) {
+void bake_scene_size(const struct bake_look *look, const struct bake_round *round,
+                     const struct bake_batch *batch, struct povray_job *job) {
   if (look->form == BAKE_MESH) {
     job->frames = 1;
     job->width = IMAGE_WIDTH;
@@ -134,7 +148,8 @@ void bake_scene_size(const struct bake_look *look, const struct bake_round *roun
   job->height = transposed ? size[SLAB_V] : size[SLAB_T];
 }
 
-char *bake_scene_text(const struct bake_look *look, const struct slab *slabs, int pages, const struct bake_round *round, const struct bake_batch *batch) {
+char *bake_scene_text(const struct bake_look *look, const struct slab *slabs, int pages,
+                      const struct bake_round *round, const struct bake_batch *batch) {
   char *text = NULL;
   size_t size = 0;
   FILE *out = open_memstream(&text, &size);

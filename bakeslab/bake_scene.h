@@ -9,10 +9,10 @@
 
 struct bake_look {
   enum bake_form form;
-  int defect_rows;     /* image rows that mesh_camera wastes */
-  bool centre;         /* no offsets: rays through the samples' centres */
-  double gain;         /* power of two by which the picture is brighter than the lamp */
-  const char *effects; /* words for Canned_Bake_Effects */
+  int defect_rows;      /* image rows that mesh_camera wastes */
+  bool centre;          /* no offsets: rays through the samples' centres */
+  double gain;          /* power of two by which the picture is brighter than the lamp */
+  const char *effects;  /* words for Canned_Bake_Effects */
   bool interreflection; /* whether they hold that word */
 };
 

@@ -6,8 +6,8 @@
 
 /* Of one sample, over the pairs so far. */
 struct cell {
-  double rgb[3];   /* sum over rays */
-  double y, yy;    /* sum of the pairs' mean luminances, and of their squares */
+  double rgb[3]; /* sum over rays */
+  double y, yy;  /* sum of the pairs' mean luminances, and of their squares */
   int rays, pairs;
 };
 
@@ -15,7 +15,7 @@ struct bake_sum {
   const struct bake_tiles *tiles; /* not owned */
   struct cell **pages;            /* one array a page, in the raster's order */
   int most_pairs;
-  double *flux;  /* [tile][pair]: luminous flux of the tile by that pair */
+  double *flux;    /* [tile][pair]: luminous flux of the tile by that pair */
   int *tile_pairs; /* pairs that each tile got */
 };
 
@@ -35,7 +35,8 @@ enum slab_result bake_sum_new(const struct bake_tiles *tiles, int most_passes,
     good = sum->pages[page] != NULL;
   }
   if (good) return SLAB_OK;
-  return slab_fail(error, SLAB_MEMORY, "not enough memory for the samples; choose fewer with --uv or --st");
+  return slab_fail(error, SLAB_MEMORY,
+                   "not enough memory for the samples; choose fewer with --uv or --st");
 }
 
 void bake_sum_free(struct bake_sum *sum) {
@@ -162,7 +163,8 @@ static double flux_error(const struct bake_sum *sum) {
     double mean = 0;
     for (int pair = 0; pair < n; ++pair) mean += flux[pair] / n;
     total += mean;
-    for (int pair = 0; pair < n; ++pair) residual[pair] += (flux[pair] - mean) / sqrt(n * (n - 1.0));
+    for (int pair = 0; pair < n; ++pair)
+      residual[pair] += (flux[pair] - mean) / sqrt(n * (n - 1.0));
   }
   for (size_t pair = 0; pair < most; ++pair) squares += residual[pair] * residual[pair];
   free(residual);

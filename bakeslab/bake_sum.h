@@ -25,11 +25,11 @@ enum slab_result bake_sum_deviation(const struct bake_sum *sum, double *deviatio
                                     struct slab_error *error);
 
 struct bake_noise {
-  bool known;           /* needs two pairs */
-  double sample;        /* RMS standard error of the samples' luminance */
-  double mean;          /* mean luminance of all samples, to relate it to */
-  double flux;          /* standard error of the flux, relative */
-  double rays;          /* mean number of rays a sample */
+  bool known;    /* needs two pairs */
+  double sample; /* RMS standard error of the samples' luminance */
+  double mean;   /* mean luminance of all samples, to relate it to */
+  double flux;   /* standard error of the flux, relative */
+  double rays;   /* mean number of rays a sample */
 };
 
 /* The samples: sums divided by their passes and by the gain. Fills each page's rgb. */

@@ -130,7 +130,8 @@ static double parse_gain(struct argp_state *state, const char *text) {
   int exponent;
   double gain =
       strncmp(text, "2^", 2) ? strtod(text, &end) : ldexp(1, (int)strtol(text + 2, &end, 10));
-  if (*end || end == text || !(gain >= 0x1p-100 && gain <= 0x1p100) || frexp(gain, &exponent) != 0.5)
+  if (*end || end == text || !(gain >= 0x1p-100 && gain <= 0x1p100) ||
+      frexp(gain, &exponent) != 0.5)
     argp_error(state, "--gain %s: not a power of two such as 2^-8 or 0.125", text);
   return gain;
 }
@@ -141,27 +142,55 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   struct arguments *arguments = state->input;
   struct bake_options *bake = &arguments->bake;
   switch (key) {
-  case 'o': bake->output = text; return 0;
-  case OPTION_UV: parse_size(state, "--uv", text, bake->uv); return 0;
-  case OPTION_ST: parse_size(state, "--st", text, bake->st); return 0;
+  case 'o':
+    bake->output = text;
+    return 0;
+  case OPTION_UV:
+    parse_size(state, "--uv", text, bake->uv);
+    return 0;
+  case OPTION_ST:
+    parse_size(state, "--st", text, bake->st);
+    return 0;
   case OPTION_PRECISION:
     bake->precision = (enum slab_precision)parse_word(state, "--precision", text, precisions);
     return 0;
-  case OPTION_RAYS: bake->rays = parse_number(state, "--rays", text, 1, 4096); return 0;
-  case OPTION_RAYS_MAX: bake->rays_max = parse_number(state, "--rays-max", text, 1, 65536); return 0;
-  case OPTION_UNIFORM: bake->uniform = true; return 0;
-  case OPTION_CENTRE: bake->centre = true; return 0;
-  case OPTION_EFFECTS: bake->effects = text; return 0;
-  case OPTION_GAIN: bake->gain = parse_gain(state, text); return 0;
-  case OPTION_CAMERA: bake->form = parse_word(state, "--camera", text, cameras); return 0;
-  case 'j': bake->jobs = parse_number(state, "--jobs", text, 1, 1024); return 0;
-  case OPTION_SHARD: parse_shard(state, text, bake); return 0;
-  case OPTION_POVRAY: bake->povray = text; return 0;
+  case OPTION_RAYS:
+    bake->rays = parse_number(state, "--rays", text, 1, 4096);
+    return 0;
+  case OPTION_RAYS_MAX:
+    bake->rays_max = parse_number(state, "--rays-max", text, 1, 65536);
+    return 0;
+  case OPTION_UNIFORM:
+    bake->uniform = true;
+    return 0;
+  case OPTION_CENTRE:
+    bake->centre = true;
+    return 0;
+  case OPTION_EFFECTS:
+    bake->effects = text;
+    return 0;
+  case OPTION_GAIN:
+    bake->gain = parse_gain(state, text);
+    return 0;
+  case OPTION_CAMERA:
+    bake->form = parse_word(state, "--camera", text, cameras);
+    return 0;
+  case 'j':
+    bake->jobs = parse_number(state, "--jobs", text, 1, 1024);
+    return 0;
+  case OPTION_SHARD:
+    parse_shard(state, text, bake);
+    return 0;
+  case OPTION_POVRAY:
+    bake->povray = text;
+    return 0;
   case 'L':
     if (arguments->library_count == LAMP_MAX_LIBRARIES) argp_error(state, "too many -L");
     arguments->libraries[arguments->library_count++] = text;
     return 0;
-  case 'q': bake->quiet = true; return 0;
+  case 'q':
+    bake->quiet = true;
+    return 0;
   case ARGP_KEY_ARG:
     if (bake->lamp) argp_error(state, "%s: one lamp script at a time", text);
     bake->lamp = text;
@@ -170,7 +199,8 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (!bake->lamp) argp_error(state, "give a lamp script");
     if (!bake->output) argp_error(state, "give -o SLAB");
     return 0;
-  default: return ARGP_ERR_UNKNOWN;
+  default:
+    return ARGP_ERR_UNKNOWN;
   }
 }
 
@@ -188,7 +218,8 @@ static bool check_rays(struct bake_options *bake) {
   }
   if (bake->rays_max == 0) bake->rays_max = 4 * bake->rays;
   if (bake->rays_max < bake->rays || bake->rays_max % 2 > bake->rays % 2) {
-    cli_complain("--rays-max %d: not an even number that is at least --rays (%d)", bake->rays_max, bake->rays);
+    cli_complain("--rays-max %d: not an even number that is at least --rays (%d)", bake->rays_max,
+                 bake->rays);
     return false;
   }
   return true;
@@ -197,14 +228,23 @@ static bool check_rays(struct bake_options *bake) {
 static void report_done(const struct bake_options *bake, const struct bake_report *report) {
   if (bake->quiet) return;
   if (report->assembled)
-    fprintf(stderr, "%s: %d batches, %d of them found finished; %.3g rays, %.1f CPU s of POV-Ray\n", bake->output, report->batches, report->found, report->rays, report->cpu);
+    fprintf(stderr, "%s: %d batches, %d of them found finished; %.3g rays, %.1f CPU s of POV-Ray\n",
+            bake->output, report->batches, report->found, report->rays, report->cpu);
   else
-    fprintf(stderr, "%s: shard %d/%d is done; the run without --shard assembles the slab\n", bake->output, bake->shard + 1, bake->shards);
+    fprintf(stderr, "%s: shard %d/%d is done; the run without --shard assembles the slab\n",
+            bake->output, bake->shard + 1, bake->shards);
 }
 
 int cmd_bake(int argc, char **argv) {
   long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  struct arguments arguments = {.bake = {.povray = "povray", .uv = {16, 16}, .st = {64, 64}, .effects = "auto", .form = -1, .jobs = processors > 0 ? (int)processors : 1, .shards = 1, .command = cli_command_line()}};
+  struct arguments arguments = {.bake = {.povray = "povray",
+                                         .uv = {16, 16},
+                                         .st = {64, 64},
+                                         .effects = "auto",
+                                         .form = -1,
+                                         .jobs = processors > 0 ? (int)processors : 1,
+                                         .shards = 1,
+                                         .command = cli_command_line()}};
   struct bake_options *bake_options = &arguments.bake;
   static const struct argp argp = {options, parse_option, usage, doc, NULL, NULL, NULL};
   argp_parse(&argp, argc, argv, 0, NULL, &arguments);

@@ -96,23 +96,31 @@ static enum slab_result read_declarations(const struct lamp_source *source, cons
   char *rest = text;
   for (char *line; rest && *rest && (line = strsep(&rest, "\n")) && !result;)
     if (*line && !read_declaration(line, lamp, &common))
-      result = slab_fail(error, SLAB_BAD, "%s: canned.inc said \"%s\", which this bakeslab does not know; use the canned.inc that came with it", source->script, line);
+      result = slab_fail(error, SLAB_BAD,
+                         "%s: canned.inc said \"%s\", which this bakeslab does not know; use the "
+                         "canned.inc that came with it",
+                         source->script, line);
   free(text);
   if (!result && !lamp->slab_count)
-    result = slab_fail(error, SLAB_BAD, "%s: declares no slab; it must #include \"canned.inc\" and call Canned_Slab", source->script);
+    result = slab_fail(error, SLAB_BAD,
+                       "%s: declares no slab; it must #include \"canned.inc\" and call Canned_Slab",
+                       source->script);
   if (!result && !common.name[0])
-    result = slab_fail(error, SLAB_BAD, "%s: has no name; call Canned_Lamp(\"name\")", source->script);
+    result =
+        slab_fail(error, SLAB_BAD, "%s: has no name; call Canned_Lamp(\"name\")", source->script);
   for (int n = 0; n < lamp->slab_count && !result; ++n) {
     struct slab *slab = &lamp->slabs[n];
     memcpy(slab->name, common.name, sizeof slab->name);
     memcpy(slab->radiance_unit, common.radiance_unit, sizeof slab->radiance_unit);
     slab->metres_per_unit = common.metres_per_unit;
     if (slab->st_distance == 0) slab->st_distance = INFINITY;
-    double length = sqrt(slab->normal[0] * slab->normal[0] + slab->normal[1] * slab->normal[1] + slab->normal[2] * slab->normal[2]);
+    double length = sqrt(slab->normal[0] * slab->normal[0] + slab->normal[1] * slab->normal[1] +
+                         slab->normal[2] * slab->normal[2]);
     for (int axis = 0; axis < 3; ++axis) slab->normal[axis] /= length;
     struct slab_error reason;
     if (slab_check(slab, &reason))
-      result = slab_fail(error, SLAB_BAD, "%s: Canned_Slab %d: %s", source->script, n + 1, reason.text);
+      result =
+          slab_fail(error, SLAB_BAD, "%s: Canned_Slab %d: %s", source->script, n + 1, reason.text);
   }
   return result;
 }
@@ -121,7 +129,8 @@ static enum slab_result read_declarations(const struct lamp_source *source, cons
 
 static enum slab_result hash_file(const char *path, XXH3_state_t *state, struct slab_error *error) {
   FILE *file = fopen(path, "re");
-  if (!file) return slab_fail(error, SLAB_IO, "%s: cannot be read again after POV-Ray read it", path);
+  if (!file)
+    return slab_fail(error, SLAB_IO, "%s: cannot be read again after POV-Ray read it", path);
   char block[65536];
   size_t n;
   while ((n = fread(block, 1, sizeof block, file)) > 0) XXH3_128bits_update(state, block, n);
@@ -138,7 +147,8 @@ static bool was_seen(char *const *seen, int count, const char *path) {
 
 /* Hashes each file once, in the order in which it was first read, whatever
  * folder it lies in; the probe's own files don't count. */
-static enum slab_result hash_reads(const struct lamp_source *source, const char *directory, struct lamp *lamp, struct slab_error *error) {
+static enum slab_result hash_reads(const struct lamp_source *source, const char *directory,
+                                   struct lamp *lamp, struct slab_error *error) {
   char *own = realpath(directory, NULL);
   char *text = files_read(directory, "reads.txt");
   char **seen = NULL;
@@ -149,7 +159,9 @@ static enum slab_result hash_reads(const struct lamp_source *source, const char 
   if (state) XXH3_128bits_reset(state);
   char *rest = text;
   for (char *path; !result && rest && *rest && (path = strsep(&rest, "\n"));) {
-    if (!strncmp(path, own, strlen(own)) || !strncmp(path, "/proc/", 6) || was_seen(seen, count, path)) continue;
+    if (!strncmp(path, own, strlen(own)) || !strncmp(path, "/proc/", 6) ||
+        was_seen(seen, count, path))
+      continue;
     char **grown = realloc(seen, (size_t)(count + 1) * sizeof *seen);
     if (!grown) {
       result = slab_fail(error, SLAB_MEMORY, "out of memory");
@@ -161,10 +173,14 @@ static enum slab_result hash_reads(const struct lamp_source *source, const char 
   }
   /* A statically linked POV-Ray would ignore the preloaded list-maker. */
   if (!result && !was_seen(seen, count, source->path))
-    result = slab_fail(error, SLAB_IO, "%s: cannot find out which files the script reads, since this POV-Ray ignores LD_PRELOAD; use a dynamically linked one", source->script);
+    result = slab_fail(error, SLAB_IO,
+                       "%s: cannot find out which files the script reads, since this POV-Ray "
+                       "ignores LD_PRELOAD; use a dynamically linked one",
+                       source->script);
   if (!result) {
     XXH128_hash_t hash = XXH3_128bits_digest(state);
-    snprintf(lamp->reads_key, sizeof lamp->reads_key, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
+    snprintf(lamp->reads_key, sizeof lamp->reads_key, "%016llx%016llx",
+             (unsigned long long)hash.high64, (unsigned long long)hash.low64);
   }
   XXH3_freeState(state);
   free(seen);
@@ -192,18 +208,25 @@ static void read_picture(const struct slab_picture *picture, struct lamp *lamp) 
   }
 }
 
-enum slab_result lamp_probe(const struct povray *povray, const struct lamp_source *source, const char *directory, struct lamp *lamp, struct slab_error *error) {
+enum slab_result lamp_probe(const struct povray *povray, const struct lamp_source *source,
+                            const char *directory, struct lamp *lamp, struct slab_error *error) {
   *lamp = (struct lamp){0};
   struct lamp_library library;
   lamp_source_library(source, &library);
-  struct povray_job job = {.directory = directory, .width = PROBE_SIDE, .height = 2 + PROBE_SIDE * PROBE_VIEWS, .frames = 1, .library = library.paths, .preload = source->reads};
+  struct povray_job job = {.directory = directory,
+                           .width = PROBE_SIDE,
+                           .height = 2 + PROBE_SIDE * PROBE_VIEWS,
+                           .frames = 1,
+                           .library = library.paths,
+                           .preload = source->reads};
   struct slab_picture picture = {0};
   files_remove_tree(directory);
   enum slab_result result = lamp_source_link(source, directory, error);
   if (!result) result = files_write(directory, "scene.pov", probe_scene, error);
   char *list = result ? NULL : realpath(directory, NULL);
   char *reads = list ? files_join(list, "reads.txt") : NULL;
-  if (!result && (!reads || setenv("CANNED_READS", reads, 1) != 0)) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (!result && (!reads || setenv("CANNED_READS", reads, 1) != 0))
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
   if (!result) result = povray_run(povray, &job, error);
   unsetenv("CANNED_READS");
   if (result) lamp_source_rename(source, error);

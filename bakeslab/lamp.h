@@ -14,23 +14,23 @@ enum { LAMP_MAX_LIBRARIES = 32 };
 
 /* Where POV-Ray finds what a script needs. Paths are absolute and owned. */
 struct lamp_source {
-  const char *script;    /* as the user named it, for messages; not owned */
-  char *path;            /* the script */
-  char *folder;          /* its folder: relative includes are found there */
-  char *include_pov;     /* canned.inc's folder */
-  char *reads;           /* the preloaded list-maker of files read */
+  const char *script;                      /* as the user named it, for messages; not owned */
+  char *path;                              /* the script */
+  char *folder;                            /* its folder: relative includes are found there */
+  char *include_pov;                       /* canned.inc's folder */
+  char *reads;                             /* the preloaded list-maker of files read */
   char *libraries[LAMP_MAX_LIBRARIES + 1]; /* the user's -L folders */
 };
 
 struct lamp {
   int slab_count;
-  struct slab *slabs;       /* geometry as declared; samples[] are all 1 */
+  struct slab *slabs; /* geometry as declared; samples[] are all 1 */
   bool needs_declared;
-  char needs[256];          /* of Canned_Needs */
-  char reads_key[33];       /* of the content of every file that the script reads */
-  double peak;              /* brightest radiance seen by the probe, any channel */
-  bool mesh_camera;         /* works */
-  int defect_rows;          /* image rows to skip: 1 with POV-Ray 3.7's defect */
+  char needs[256];    /* of Canned_Needs */
+  char reads_key[33]; /* of the content of every file that the script reads */
+  double peak;        /* brightest radiance seen by the probe, any channel */
+  bool mesh_camera;   /* works */
+  int defect_rows;    /* image rows to skip: 1 with POV-Ray 3.7's defect */
 };
 
 /* Resolves the script and finds include-pov and the list-maker beside the

@@ -24,14 +24,17 @@ static char *beside_program(const char *name) {
   return path;
 }
 
-enum slab_result lamp_source_open(const char *script, const char *const *libraries, struct lamp_source *source, struct slab_error *error) {
+enum slab_result lamp_source_open(const char *script, const char *const *libraries,
+                                  struct lamp_source *source, struct slab_error *error) {
   *source = (struct lamp_source){.script = script};
   struct stat status;
   source->path = realpath(script, NULL);
   if (!source->path || stat(source->path, &status) != 0)
     return slab_fail(error, SLAB_IO, "%s: %s", script, strerror(errno));
-  if (!S_ISREG(status.st_mode)) return slab_fail(error, SLAB_BAD, "%s: is not a file; give a lamp script", script);
-  if (access(source->path, R_OK) != 0) return slab_fail(error, SLAB_IO, "%s: %s", script, strerror(errno));
+  if (!S_ISREG(status.st_mode))
+    return slab_fail(error, SLAB_BAD, "%s: is not a file; give a lamp script", script);
+  if (access(source->path, R_OK) != 0)
+    return slab_fail(error, SLAB_IO, "%s: %s", script, strerror(errno));
   char *copy = strdup(source->path);
   source->folder = copy ? strdup(dirname(copy)) : NULL;
   free(copy);
@@ -39,12 +42,16 @@ enum slab_result lamp_source_open(const char *script, const char *const *librari
   source->include_pov = beside_program("share/canned/include-pov");
   source->reads = beside_program("lib/canned/reads.so");
   if (!source->include_pov || !source->reads)
-    return slab_fail(error, SLAB_IO, "share/canned/include-pov and lib/canned/reads.so are not where bakeslab was installed; run `make` or `make install` again");
+    return slab_fail(error, SLAB_IO,
+                     "share/canned/include-pov and lib/canned/reads.so are not where bakeslab was "
+                     "installed; run `make` or `make install` again");
   int n = 0;
   for (; libraries && *libraries; ++libraries) {
-    if (n == LAMP_MAX_LIBRARIES) return slab_fail(error, SLAB_BAD, "more than %d -L folders", LAMP_MAX_LIBRARIES);
+    if (n == LAMP_MAX_LIBRARIES)
+      return slab_fail(error, SLAB_BAD, "more than %d -L folders", LAMP_MAX_LIBRARIES);
     source->libraries[n] = realpath(*libraries, NULL);
-    if (!source->libraries[n++]) return slab_fail(error, SLAB_IO, "-L %s: %s", *libraries, strerror(errno));
+    if (!source->libraries[n++])
+      return slab_fail(error, SLAB_IO, "-L %s: %s", *libraries, strerror(errno));
   }
   return SLAB_OK;
 }
@@ -92,8 +99,7 @@ enum slab_result lamp_source_link(const struct lamp_source *source, const char *
 int lamp_source_library(const struct lamp_source *source, struct lamp_library *library) {
   int n = 0;
   *library = (struct lamp_library){.paths = {folder_link, canned_link}};
-  for (; source->libraries[n]; ++n)
-    library->paths[n + 2] = library_link(n, library->names[n]);
+  for (; source->libraries[n]; ++n) library->paths[n + 2] = library_link(n, library->names[n]);
   return n + 2;
 }
 

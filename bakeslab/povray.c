@@ -53,11 +53,19 @@ enum slab_result povray_find(const char *program, struct povray *povray, struct 
   int status = 0;
   while (pid > 0 && waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
   if (pid < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == EXEC_FAILED))
-    return slab_fail(error, SLAB_IO, "%s: cannot be run; install POV-Ray 3.7 (Debian: apt install povray) or name it with --povray", program);
+    return slab_fail(error, SLAB_IO,
+                     "%s: cannot be run; install POV-Ray 3.7 (Debian: apt install povray) or name "
+                     "it with --povray",
+                     program);
   if (!found)
-    return slab_fail(error, SLAB_BAD, "%s: does not say that it is POV-Ray 3.7; name another with --povray", program);
+    return slab_fail(error, SLAB_BAD,
+                     "%s: does not say that it is POV-Ray 3.7; name another with --povray",
+                     program);
   if (strncmp(povray->version, "3.7", 3) != 0 && strncmp(povray->version, "3.8", 3) != 0)
-    return slab_fail(error, SLAB_BAD, "%s: is POV-Ray %s, and only 3.7 and 3.8 are known to give the radiance that a bake needs; name another with --povray", program, povray->version);
+    return slab_fail(error, SLAB_BAD,
+                     "%s: is POV-Ray %s, and only 3.7 and 3.8 are known to give the radiance that "
+                     "a bake needs; name another with --povray",
+                     program, povray->version);
   return SLAB_OK;
 }
 
@@ -66,13 +74,15 @@ static enum slab_result write_ini(const struct povray_job *job, struct slab_erro
   size_t size = 0;
   FILE *ini = open_memstream(&text, &size);
   if (!ini) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  fprintf(ini, "; Written by bakeslab. Again: povray render.ini\n"
-               "Input_File_Name=scene.pov\nOutput_File_Name=frame.exr\nOutput_File_Type=E\n"
-               "Output_to_File=on\nWidth=%d\nHeight=%d\n", job->width, job->height);
-  if (job->frames > 1)
-    fprintf(ini, "Initial_Frame=1\nFinal_Frame=%d\n", job->frames);
+  fprintf(ini,
+          "; Written by bakeslab. Again: povray render.ini\n"
+          "Input_File_Name=scene.pov\nOutput_File_Name=frame.exr\nOutput_File_Type=E\n"
+          "Output_to_File=on\nWidth=%d\nHeight=%d\n",
+          job->width, job->height);
+  if (job->frames > 1) fprintf(ini, "Initial_Frame=1\nFinal_Frame=%d\n", job->frames);
   fputs("Display=off\nPause_When_Done=off\nVerbose=on\nAntialias=off\nQuality=9\nOutput_Alpha=off\n"
-        "Work_Threads=1\nContinue_Trace=off\nRemove_Bounds=on\nBounding=on\n", ini);
+        "Work_Threads=1\nContinue_Trace=off\nRemove_Bounds=on\nBounding=on\n",
+        ini);
   for (const char *const *path = job->library; path && *path; ++path)
     fprintf(ini, "Library_Path=\"%s\"\n", *path);
   if (fclose(ini) != 0) {
@@ -141,13 +151,17 @@ static enum slab_result report_log(const struct povray_job *job, struct slab_err
     join_message(at, message, sizeof message);
   }
   free(log);
-  if (!message[0]) return slab_fail(error, SLAB_IO, "POV-Ray failed without a message; its log is %s/log", job->directory);
+  if (!message[0])
+    return slab_fail(error, SLAB_IO, "POV-Ray failed without a message; its log is %s/log",
+                     job->directory);
   return slab_fail(error, SLAB_BAD, "POV-Ray: %s", message);
 }
 
 enum slab_result povray_finish(const struct povray_job *job, int status, struct slab_error *error) {
   if (WIFSIGNALED(status))
-    return slab_fail(error, SLAB_IO, "POV-Ray was killed by signal %d (%s); was memory or disk short?", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    return slab_fail(error, SLAB_IO,
+                     "POV-Ray was killed by signal %d (%s); was memory or disk short?",
+                     WTERMSIG(status), strsignal(WTERMSIG(status)));
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXEC_FAILED)
     return slab_fail(error, SLAB_IO, "%s: POV-Ray could not be started there", job->directory);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2)
@@ -156,7 +170,8 @@ enum slab_result povray_finish(const struct povray_job *job, int status, struct 
   return SLAB_OK;
 }
 
-enum slab_result povray_run(const struct povray *povray, const struct povray_job *job, struct slab_error *error) {
+enum slab_result povray_run(const struct povray *povray, const struct povray_job *job,
+                            struct slab_error *error) {
   pid_t pid;
   enum slab_result result = povray_start(povray, job, &pid, error);
   if (result) return result;
@@ -196,7 +211,8 @@ double povray_statistic(const char *directory, const char *label) {
   return value;
 }
 
-enum slab_result povray_read_frame(const struct povray_job *job, int frame, struct slab_picture *picture, struct slab_error *error) {
+enum slab_result povray_read_frame(const struct povray_job *job, int frame,
+                                   struct slab_picture *picture, struct slab_error *error) {
   char path[4200];
   if (job->frames > 1) {
     int digits = snprintf(NULL, 0, "%d", job->frames);
@@ -208,5 +224,6 @@ enum slab_result povray_read_frame(const struct povray_job *job, int frame, stru
   if (result) return result;
   if (picture->width == job->width && picture->height == job->height) return SLAB_OK;
   slab_picture_free(picture);
-  return slab_fail(error, SLAB_BAD, "%s: is not the %d x %d picture that was asked for", path, job->width, job->height);
+  return slab_fail(error, SLAB_BAD, "%s: is not the %d x %d picture that was asked for", path,
+                   job->width, job->height);
 }

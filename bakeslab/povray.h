@@ -32,17 +32,15 @@ struct povray_job {
 };
 
 /* Asks the program for its version; refuses what is not POV-Ray 3.7 or 3.8. */
-enum slab_result povray_find(const char *program, struct povray *povray,
-                             struct slab_error *error);
+enum slab_result povray_find(const char *program, struct povray *povray, struct slab_error *error);
 
 /* Writes render.ini and starts the process. It dies with its parent. */
-enum slab_result povray_start(const struct povray *povray, const struct povray_job *job,
-                              pid_t *pid, struct slab_error *error);
+enum slab_result povray_start(const struct povray *povray, const struct povray_job *job, pid_t *pid,
+                              struct slab_error *error);
 
 /* Judges a process that has ended with `status` (of waitpid): SLAB_OK, or
  * POV-Ray's own error line, in which "scene.pov" and link names are kept. */
-enum slab_result povray_finish(const struct povray_job *job, int status,
-                               struct slab_error *error);
+enum slab_result povray_finish(const struct povray_job *job, int status, struct slab_error *error);
 
 /* Runs a job and waits for it. */
 enum slab_result povray_run(const struct povray *povray, const struct povray_job *job,

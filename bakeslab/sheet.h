@@ -27,9 +27,11 @@ enum { SHEET_DISTANCES = 5 };
 /* Distances at which the error is told, in aperture widths (longer edge). */
 extern const double sheet_distances[SHEET_DISTANCES];
 
-/* Lowest height of a sheet before its lights, in scene units, at which POV-Ray
- * still sees all of it. */
-extern const double sheet_least_height;
+/* Height of the apertures that keep lights to their tiles, as a share of the
+ * sheet's height, and the lowest sheet, in scene units, that POV-Ray then sees
+ * all of: it wants its SMALL_TOLERANCE, 0.001, between an aperture and what
+ * casts a shadow behind it. */
+extern const double sheet_gate, sheet_least_height;
 
 struct sheet_level {
   struct slab views; /* block means of the page; owned */

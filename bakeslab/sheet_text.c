@@ -114,7 +114,7 @@ static void print_faint(const struct sheet_page *page, FILE *out) {
   const struct slab *views = &finest->views;
   double reach = sqrt(finest->peak * slab_spacing(views, SLAB_U) * slab_spacing(views, SLAB_V) /
                       (2 * M_PI * dropped));
-  if (reach < 1e4 * fmax(edge(views, SLAB_U), edge(views, SLAB_V)))
+  if (reach < 1e3 * fmax(edge(views, SLAB_U), edge(views, SLAB_V)))
     fprintf(out,
             "//   POV-Ray drops what is too faint (1e-10): even the brightest rays of a light\n"
             "//   end %.2g units away. Raise Gain, and lower the picture's exposure.\n",
@@ -278,9 +278,10 @@ void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE 
   print_levels(sheet, text, out);
   print_image(sheet, text, out);
   fprintf(out,
-          "// Lowest height of the sheet before its lights that POV-Ray still sees all of.\n"
-          "#declare %s_Least_Height = %g;\n\n",
-          text->name, sheet_least_height);
+          "// Lowest sheet that POV-Ray sees all of, in scene units, for lights that look at it\n"
+          "// through an opening this share of its height away .\n"
+          "#declare %s_Least_Height = %g;\n#declare %s_Gate = %g;\n\n",
+          text->name, sheet_least_height, text->name, sheet_gate);
   print_named(sheet_macros, text->name, out);
   if (text->housing) {
     print_named("\n#macro @_Canned_Case()\n", text->name, out);
