@@ -63,6 +63,17 @@ static exr_result_t define_part(struct writer *writer, int index, const char *te
   return code;
 }
 
+typedef exr_result_t (*write_step)(exr_encode_pipeline_t *);
+
+/* OpenEXRCore 3.1 keeps a compressed chunk that is exactly as long as its raw
+ * pixels; readers take that length for uncompressed, and get garbage. */
+static exr_result_t write_shorter(exr_encode_pipeline_t *pipeline) {
+  if (pipeline->compressed_bytes == pipeline->packed_bytes &&
+      pipeline->compressed_buffer != pipeline->packed_buffer)
+    memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
+  return (*(write_step *)pipeline->encoding_user_data)(pipeline);
+}
+
 /* Encodes the block at (x, y); `halves` has room for its pixels. */
 static exr_result_t write_block(struct writer *writer, int part, const exr_chunk_info_t *chunk,
                                 int x, int y, uint16_t *halves) {
@@ -92,6 +103,9 @@ static exr_result_t write_block(struct writer *writer, int part, const exr_chunk
   }
   if (code == EXR_ERR_SUCCESS)
     code = exr_encoding_choose_default_routines(writer->context, part, &pipeline);
+  write_step write = pipeline.write_fn;
+  pipeline.write_fn = write_shorter;
+  pipeline.encoding_user_data = &write;
   if (code == EXR_ERR_SUCCESS) code = exr_encoding_run(writer->context, part, &pipeline);
   exr_encoding_destroy(writer->context, &pipeline);
   return code;
