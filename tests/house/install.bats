@@ -61,9 +61,14 @@ setup_file() {
   gcc -Wall -Wextra -Werror reader.c -o reader -ltiff -ljansson
   cp "$ROOT/lamps/parabolic.pov" .
   "$PREFIX/bin/bakeslab" bake parabolic.pov -o lamp.tif --uv 4x4 --st 16x16 --rays 1
-  # Sample (2, 1, 8, 7) sits at a = 2.5, b = -2.5, s = -t = half a cell of 3/16.
-  read -r red green blue < <(./reader lamp.tif 2 1 8 7)
-  echo "2.5 0 -2.5  0.09375 -1 -0.09375" | "$PREFIX/bin/bakeslab" lookup lamp.tif >looked
+  # At the brightest sample: the rectangle is 20 x 20 in y = 0, shining down, the
+  # window 3 x 3, with 4 x 4 and 16 x 16 samples.
+  read -r i j k l < <("$PREFIX/bin/bakeslab" info lamp.tif |
+    sed -n 's/^ *peak .*at sample (\([0-9]*\), \([0-9]*\), \([0-9]*\), \([0-9]*\))$/\1 \2 \3 \4/p')
+  read -r red green blue < <(./reader lamp.tif "$i" "$j" "$k" "$l")
+  awk -v i="$i" -v j="$j" -v k="$k" -v l="$l" 'BEGIN {
+    printf "%.9g 0 %.9g %.9g -1 %.9g\n", ((i + .5) / 4 - .5) * 20, ((j + .5) / 4 - .5) * 20,
+      ((k + .5) / 16 - .5) * 3, ((l + .5) / 16 - .5) * 3 }' | "$PREFIX/bin/bakeslab" lookup lamp.tif >looked
   awk -v r="$red" -v g="$green" -v b="$blue" '
     function near(x, y) { return x - y < 1e-3 * y && y - x < 1e-3 * y }
     { exit !(r > 0 && near($1, r) && near($2, g) && near($3, b)) }' looked
