@@ -59,8 +59,7 @@ static void print_usage(const struct sheet *sheet, const struct sheet_text *text
           "// Made by: ",
           text->file, text->image, text->name);
   print_comment(text->command, out);
-  print_named("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include ", "",
-              out);
+  fputs("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include ", out);
   print_string(text->file, out);
   print_named("\n"
               "//          object { @_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
@@ -77,21 +76,23 @@ static void print_usage(const struct sheet *sheet, const struct sheet_text *text
               text->name, out);
   print_named("//\n"
               "// Declare before the #include, where the default does not suit:\n"
-              "//   @_Lights      at most so many lights an axis; fewer are faster and less\n"
-              "//                 exact (table below). May be changed between two lamps.\n"
-              "//   @_Sheet_File  path of the image; POV-Ray looks for it in the working\n"
-              "//                 folder and in Library_Path, not beside this file.\n"
+              "//   @_Lights\n"
+              "//          at most so many lights an axis; fewer are faster and less exact\n"
+              "//          (tables below). May be changed between two lamps.\n"
+              "//   @_Sheet_File\n"
+              "//          path of the image, which POV-Ray looks for in the working folder\n"
+              "//          and in Library_Path, not beside this file.\n"
               "//\n",
               text->name, out);
   fprintf(out,
-          "// Units:   1 unit is %.6g m at Scale 1; radiance in %s. A surface of pigment P,\n"
+          "// Units:   1 unit is %.6g m at Scale 1; radiance: %s. A surface of pigment P,\n"
           "//          diffuse 1, shows the radiance P*E/pi; phong and specular highlights\n"
           "//          are POV-Ray's, which have no 1/pi.\n",
           slab->metres_per_unit, slab->radiance_unit);
 }
 
 static void print_limits(const struct sheet *sheet, FILE *out) {
-  fputs("// Limits:  Surfaces may not come closer to the aperture than the sheet (column h\n"
+  fputs("// Limits:  Surfaces may not come closer to the aperture than the sheet (tables\n"
         "//          below). POV-Ray ignores shadows closer than 0.001 units to a light, so\n"
         "//          there is a smallest Scale; use larger scene units for small lamps.\n"
         "//          Not in a light_group, not with shadowless, quality +Q4 or better.\n"
@@ -113,7 +114,7 @@ static void print_faint(const struct sheet_page *page, FILE *out) {
   const struct sheet_level *finest = &page->levels[0];
   const struct slab *views = &finest->views;
   double reach = sqrt(finest->peak * slab_spacing(views, SLAB_U) * slab_spacing(views, SLAB_V) /
-                      (2 * M_PI * dropped));
+                      (M_PI * dropped));
   if (reach < 1e3 * fmax(edge(views, SLAB_U), edge(views, SLAB_V)))
     fprintf(out,
             "//   POV-Ray drops what is too faint (1e-10): even the brightest rays of a light\n"
@@ -121,7 +122,7 @@ static void print_faint(const struct sheet_page *page, FILE *out) {
             reach);
 }
 
-static void print_table(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+static void print_table(const struct sheet *sheet, FILE *out) {
   for (int p = 0; p < sheet->page_count; ++p) {
     const struct sheet_page *page = &sheet->pages[p];
     const struct slab *slab = &page->levels[0].views;
@@ -134,26 +135,26 @@ static void print_table(const struct sheet *sheet, const struct sheet_text *text
     fprintf(out, "\n//   flux at Scale 1, Gain 1: %.4g %.4g %.4g %s (red, green, blue)\n",
             page->flux[0] * area, page->flux[1] * area, page->flux[2] * area, flux_unit(slab));
     print_faint(page, out);
-    print_named("//   error of the irradiance (relative RMSE) in %, on a plane so many aperture\n"
-                "//   widths away; h and smallest Scale in scene units:\n"
-                "//   lights   lit of        0.5      1      2      4      8        h  Scale >=\n",
-                text->name, out);
+    fputs("//   error of the irradiance (relative RMSE) in %, on a plane so many aperture\n"
+          "//   widths away; height of the sheet; smallest Scale\n"
+          "//   lights    lit of          0.5      1      2      4      8    height  Scale >=\n",
+          out);
     for (int k = 0; k < page->level_count; ++k) {
       const struct sheet_level *level = &page->levels[k];
       const int *lights = level->views.samples;
       char size[32];
       snprintf(size, sizeof size, "%dx%d", lights[SLAB_U], lights[SLAB_V]);
-      fprintf(out, "//   %-7s %5d of %-5d ", size, level->lit, lights[SLAB_U] * lights[SLAB_V]);
+      fprintf(out, "//   %-8s %5d of %-5d ", size, level->lit, lights[SLAB_U] * lights[SLAB_V]);
       for (int d = 0; d < SHEET_DISTANCES; ++d) fprintf(out, " %6.3g", 100 * level->error[d]);
-      fprintf(out, " %8.3g  %8.3g\n", level->height, sheet_least_height / level->height);
+      fprintf(out, "  %8.3g  %8.3g\n", level->height, sheet_least_height / level->height);
     }
   }
 }
 
 static void print_frames(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
-  print_named("// One line a page: |u|, |v|, samples and range of s, samples and range of t,\n"
-              "// 1/distance of the st plane, first of its levels.\n",
-              "", out);
+  fputs("// One line a page: |u|, |v|, samples and range of s, samples and range of t,\n"
+        "// 1/distance of the st plane, first of its levels.\n",
+        out);
   fprintf(out, "#declare %s_Pages = array[%d][10] {\n", text->name, sheet->page_count);
   for (int p = 0, first = 0; p < sheet->page_count; ++p) {
     const struct slab *slab = &sheet->pages[p].levels[0].views;
@@ -223,7 +224,7 @@ static void print_image(const struct sheet *sheet, const struct sheet_text *text
       text->name, out);
   fprintf(out, "#declare %s_Image_Size = <%d, %d, 0>;\n", text->name, picture->width,
           picture->height);
-  fprintf(out, "#local Check_ = <%.6f, %.6f, 0>;  // where the image holds %.10g, %.10g, %.10g\n",
+  fprintf(out, "#local Check_ = <%.9g, %.9g, 0>;  // where the image holds %.10g, %.10g, %.10g\n",
           (sheet->check_left + SHEET_CHECK_SIZE / 2.0) / picture->width,
           (sheet->check_bottom + SHEET_CHECK_SIZE / 2.0) / picture->height, (double)sheet->check[0],
           (double)sheet->check[1], (double)sheet->check[2]);
@@ -238,6 +239,7 @@ static void print_image(const struct sheet *sheet, const struct sheet_text *text
           (double)sheet->check[0]);
   print_named("  #declare @_Sheet = pigment { image_map { exr @_Sheet_File gamma Gamma_\n"
               "    interpolate 2 filter all 1 } };\n"
+              "  #undef Look_\n"
               "  #local Look_ = function { pigment { @_Sheet } };\n"
               "  #local Seen_ = Look_(Check_.x, Check_.y, 0);\n"
               "#end\n",
@@ -261,7 +263,7 @@ void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE 
     }
   print_usage(sheet, text, out);
   print_limits(sheet, out);
-  print_table(sheet, text, out);
+  print_table(sheet, out);
   print_named("\n#ifndef(@_Canned_Inc_Temp)\n"
               "#declare @_Canned_Inc_Temp = version;\n"
               "#version 3.7;\n"

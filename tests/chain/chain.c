@@ -242,6 +242,13 @@ const char *chain_log(void) {
   return text;
 }
 
+/* What went wrong stands at the end, below POV-Ray's long greeting. */
+static const char *log_tail(void) {
+  const char *text = chain_log();
+  size_t length = strlen(text), most = 600;
+  return length > most ? text + length - most : text;
+}
+
 void chain_include(const struct slab *pages, int count, const char *name, const char *options) {
   char file[64];
   struct slab_error error;
@@ -249,7 +256,7 @@ void chain_include(const struct slab *pages, int count, const char *name, const 
   if (slab_file_write(chain_path(file), pages, count, SLAB_PRECISION_FLOAT, &error) != SLAB_OK)
     fail_msg("%s", error.text);
   if (chain_run("\"$BAKESLAB\" include %s -o %s.inc %s", file, name, options) != 0)
-    fail_msg("%s", chain_log());
+    fail_msg("%s", log_tail());
 }
 
 void chain_scene(const struct chain_plane *plane, const char *lights) {
@@ -274,7 +281,7 @@ int chain_povray(void) {
 
 void chain_render(struct slab_picture *picture) {
   struct slab_error error;
-  if (chain_povray() != 0) fail_msg("%s", chain_log());
+  if (chain_povray() != 0) fail_msg("%s", log_tail());
   if (slab_exr_read(chain_path("frame.exr"), picture, &error) != SLAB_OK)
     fail_msg("%s", error.text);
   assert_int_equal(picture->width, CHAIN_SIZE);

@@ -1,0 +1,251 @@
+/* test_include.c - what `bakeslab include` and the macros it writes refuse, and
+ * that the lamp is not seen. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "chain.h"
+#include "slab_json.h"
+
+static const int samples[4] = {4, 4, 16, 16};
+static const double square[2] = {1, 1}, window[4] = {-1.5, 1.5, -1.5, 1.5};
+
+static struct slab rough_slab(void) {
+  return chain_slab(samples, square, window, INFINITY, 0, 11);
+}
+
+static struct chain_lamp lamp_of(const struct slab *slab, double scale) {
+  struct chain_lamp lamp = {slab, 1, scale, 1, {0}};
+  memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
+  return lamp;
+}
+
+static double picture_error(const struct slab *slab, double scale, const char *sdl) {
+  static double direct[3 * CHAIN_PIXELS];
+  struct chain_lamp lamp = lamp_of(slab, scale);
+  struct chain_plane plane = chain_facing(&lamp, 0, 1);
+  struct slab_picture picture;
+  chain_scene(&plane, sdl);
+  chain_render(&picture);
+  chain_direct(&lamp, 1, &plane, direct);
+  double error = chain_rmse(&picture, direct);
+  slab_picture_free(&picture);
+  return error;
+}
+
+/* POV-Ray stops at the SDL, and says `text`. */
+static void expect_stop(const struct slab *slab, const char *sdl, const char *text) {
+  struct chain_lamp lamp = lamp_of(slab, 1);
+  struct chain_plane plane = chain_facing(&lamp, 0, 1);
+  chain_scene(&plane, sdl);
+  assert_int_equal(chain_povray(), 1);
+  if (!strstr(chain_log(), text)) fail_msg("POV-Ray does not say \"%s\"", text);
+}
+
+/* The program fails with one line that holds `text`, and leaves nothing. */
+static void expect_refusal(const char *arguments, int status, const char *text) {
+  assert_int_equal(chain_run("rm -f out.*; \"$BAKESLAB\" include %s", arguments), status);
+  if (!strstr(chain_log(), text)) fail_msg("no \"%s\" in: %s", text, chain_log());
+  assert_int_equal(chain_run("test $(ls -a | grep -c out) = 0 || { ls -a; exit 1; }"), 0);
+}
+
+static void write_slab(const struct slab *slab) {
+  struct slab_error error;
+  if (slab_file_write(chain_path("slab.exr"), slab, 1, SLAB_PRECISION_FLOAT, &error) != SLAB_OK)
+    fail_msg("%s", error.text);
+}
+
+/* Below the smallest Scale the lamp stops with it; there it is still right. */
+static void test_tolerance(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  chain_include(&slab, 1, "lamp", "");
+  expect_stop(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(0.0148, 1) }",
+              "Test_Lamp_Canned: too small for POV-Ray's shadow tolerance with 4x4 lights");
+  const char *advice = strstr(chain_log(), "use Scale >= ");
+  assert_non_null(advice);
+  double scale = atof(advice + strlen("use Scale >= "));
+  assert_true(scale > 0.0148 && scale < 0.0152);
+  char sdl[256];
+  snprintf(sdl, sizeof sdl, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(%.17g, 1) }", scale);
+  assert_true(picture_error(&slab, scale, sdl) < 5e-4);
+  struct slab means = chain_means(&slab, 2, 2);
+  assert_true(picture_error(&means, 0.0076,
+                            "#declare Test_Lamp_Lights = 2;\n#include \"lamp.inc\"\n"
+                            "object { Test_Lamp_Canned(0.0076, 1) }") < 5e-4);
+  slab_free(&means);
+  slab_free(&slab);
+}
+
+static void test_macro_arguments(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  chain_include(&slab, 1, "lamp", "");
+  expect_stop(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(0, 1) }",
+              "Test_Lamp_Canned: Scale is 0.0000, must be positive");
+  expect_stop(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(-1, 1) }",
+              "Test_Lamp_Canned: Scale is -1.0000, must be positive");
+  expect_stop(&slab,
+              "#declare Test_Lamp_Lights = 0;\n#include \"lamp.inc\"\n"
+              "object { Test_Lamp_Canned(1, 1) }",
+              "Test_Lamp_Canned: Test_Lamp_Lights is 0.00, must be at least 1");
+  slab_free(&slab);
+}
+
+/* An image that is missing, elsewhere, or another lamp's. */
+static void test_image(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  chain_include(&slab, 1, "lamp", "");
+  const char *lit = "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(1, 1) }";
+  assert_int_equal(chain_run("mkdir other && mv lamp.exr other/"), 0);
+  expect_stop(&slab, lit, "Test_Lamp_Canned: no image lamp.exr");
+  assert_true(picture_error(&slab, 1,
+                            "#declare Test_Lamp_Sheet_File = \"other/lamp.exr\";\n"
+                            "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(1, 1) }") < 5e-4);
+  slab.rgb[0] += 1;
+  chain_include(&slab, 1, "lamp2", "");
+  assert_int_equal(chain_run("mv lamp2.exr lamp.exr"), 0);
+  expect_stop(&slab, lit, "lamp.exr is not the image that was made with this include");
+  slab_free(&slab);
+}
+
+/* With another assumed_gamma the lamp keeps its radiance in the numbers that
+ * POV-Ray computes with, which the picture then decodes. */
+static void test_gamma(void **state) {
+  (void)state;
+  static double direct[3 * CHAIN_PIXELS];
+  struct slab slab = rough_slab();
+  struct chain_lamp lamp = lamp_of(&slab, 1);
+  struct chain_plane plane = chain_facing(&lamp, 0, 1);
+  struct slab_picture picture;
+  chain_include(&slab, 1, "lamp", "");
+  chain_scene(&plane, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(1, 1) }");
+  assert_int_equal(chain_run("sed -i 's/assumed_gamma 1.0/assumed_gamma 2.2/' scene.pov"), 0);
+  chain_render(&picture);
+  for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) picture.rgb[k] = (float)pow(picture.rgb[k], 1 / 2.2);
+  chain_direct(&lamp, 1, &plane, direct);
+  assert_true(chain_rmse(&picture, direct) < 1e-3);
+  slab_picture_free(&picture);
+  slab_free(&slab);
+}
+
+static void test_command_line(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  write_slab(&slab);
+  expect_refusal("slab.exr -o out.inc --mode cluster", 2, "--mode cluster: only sheet is there");
+  expect_refusal("slab.exr -o out.inc --lights 0", 2, "--lights 0: must be a whole number from 1");
+  expect_refusal("slab.exr", 2, "no output given");
+  expect_refusal("-o out.inc", 2, "no slab given");
+  expect_refusal("slab.exr -o out.pov", 2, "out.pov: the output must end in .inc");
+  expect_refusal("missing.tif -o out.inc", 1, "missing.tif");
+  expect_refusal("slab.exr -o nowhere/out.inc", 1, "nowhere/out.inc");
+  expect_refusal(
+      "slab.exr -o out.inc --name '2 lamps'", 1,
+      "the name \"2 lamps\" is no identifier (letters, digits, _); give one with --name");
+  expect_refusal("slab.exr -o out.inc --name a234567890123456789012345", 1,
+                 "is longer than 24 characters");
+  /* An image that cannot be put in place takes the include with it. */
+  assert_int_equal(chain_run("mkdir other2 other2/lamp.exr && touch other2/lamp.exr/x"), 0);
+  assert_int_equal(chain_run("\"$BAKESLAB\" include slab.exr -o other2/lamp.inc"), 1);
+  assert_int_equal(chain_run("test \"$(ls -A other2)\" = lamp.exr"), 0);
+  slab_free(&slab);
+}
+
+static void test_radiance(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  chain_sample(&slab, 0, 0, 3, 2)[1] = -0.5F;
+  write_slab(&slab);
+  expect_refusal("slab.exr -o out.inc", 1,
+                 "slab.exr: page 1: radiance -0.5 at pixel 3,2 is negative");
+  memset(slab.rgb, 0, sizeof(float) * 3 * 64 * 64);
+  write_slab(&slab);
+  expect_refusal("slab.exr -o out.inc", 1, "slab.exr: all radiance is zero");
+  slab_free(&slab);
+}
+
+/* The longest name that is allowed, and its capitals. */
+static void test_name(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  chain_include(&slab, 1, "lamp", "--name a_b2_cdefghijklmnopqrstu");
+  assert_true(picture_error(&slab, 1,
+                            "#include \"lamp.inc\"\n"
+                            "object { A_B2_Cdefghijklmnopqrstu_Canned(1, 1) }") < 5e-4);
+  slab_free(&slab);
+}
+
+/* Pictures of the scene with the lamp, shining nothing, and without it. */
+static void expect_unseen(const char *scene, const char *what) {
+  struct slab_picture pictures[2];
+  for (int with = 0; with < 2; ++with) {
+    FILE *file = fopen(chain_path("scene.pov"), "w");
+    assert_non_null(file);
+    fprintf(file, "#version 3.7;\n#include \"lamp.inc\"\n%s\n%s\n", scene,
+            with ? "object { Test_Lamp_Canned(1, 0) rotate 20*x }" : "");
+    assert_int_equal(fclose(file), 0);
+    chain_render(&pictures[with]);
+  }
+  for (int k = 0; k < 3 * CHAIN_PIXELS; ++k)
+    if (fabsf(pictures[0].rgb[k] - pictures[1].rgb[k]) > 1e-3F)
+      fail_msg("the lamp is seen %s, value %d: %g, not %g", what, k, (double)pictures[1].rgb[k],
+               (double)pictures[0].rgb[k]);
+  slab_picture_free(&pictures[0]);
+  slab_picture_free(&pictures[1]);
+}
+
+static void test_unseen(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  chain_include(&slab, 1, "lamp", "");
+  expect_unseen("global_settings { assumed_gamma 1 } background { rgb <1, 2, 3> }\n"
+                "camera { location -3*z look_at 0 }",
+                "itself");
+  expect_unseen("global_settings { assumed_gamma 1 } background { rgb <1, 2, 3> }\n"
+                "camera { location -3*z look_at 0 }\n"
+                "sphere { 0.2*z, 4 inverse finish { reflection 0.7 diffuse 0 ambient 0.1 } }",
+                "in a mirror");
+  expect_unseen("global_settings { assumed_gamma 1 radiosity { count 100 recursion_limit 1 } }\n"
+                "background { rgb 1 } camera { location <0, 3, -3> look_at 0 }\n"
+                "plane { y, -0.7 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }",
+                "by radiosity");
+  slab_free(&slab);
+}
+
+/* A housing in the slab's provenance is what the case macro draws. */
+static void test_housing(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  struct slab_picture picture;
+  chain_include(&slab, 1, "lamp", "");
+  expect_stop(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Case() }",
+              "Test_Lamp_Canned_Case");
+  assert_int_equal(slab_json_set(&slab, "provenance",
+                                 "{\"housing\": \"sphere { 0, 1 pigment { rgb <0, 1, 0> } "
+                                 "finish { ambient 0 emission 1 diffuse 0 } }\"}",
+                                 NULL),
+                   SLAB_OK);
+  chain_include(&slab, 1, "lamp", "");
+  struct chain_lamp lamp = lamp_of(&slab, 1);
+  struct chain_plane plane = chain_facing(&lamp, 0, 1);
+  chain_scene(&plane, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Case() }");
+  chain_render(&picture);
+  const float *middle = picture.rgb + 3 * (CHAIN_SIZE / 2 * CHAIN_SIZE + CHAIN_SIZE / 2);
+  assert_true(middle[0] < 0.01F && middle[1] > 0.99F && middle[2] < 0.01F);
+  slab_picture_free(&picture);
+  slab_free(&slab);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_tolerance),    cmocka_unit_test(test_macro_arguments),
+      cmocka_unit_test(test_image),        cmocka_unit_test(test_gamma),
+      cmocka_unit_test(test_command_line), cmocka_unit_test(test_radiance),
+      cmocka_unit_test(test_name),         cmocka_unit_test(test_unseen),
+      cmocka_unit_test(test_housing),
+  };
+  return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
+}
