@@ -27,6 +27,7 @@ struct bake_state {
   struct bake_round pilot, rest;
   struct bake_sum *sum;
   char effects[256];
+  bool effects_named; /* by the user or by the lamp, rather than just all */
 };
 
 static bool has_word(const char *list, const char *word) {
@@ -41,7 +42,8 @@ static enum slab_result choose_effects(const struct bake_options *options, struc
                                        struct slab_error *error) {
   const char *wanted = options->effects;
   if (!strcmp(wanted, "auto")) wanted = state->lamp.needs_declared ? state->lamp.needs : "all";
-  if (!strcmp(wanted, "all")) wanted = all_effects;
+  state->effects_named = strcmp(wanted, "all") != 0;
+  if (!state->effects_named) wanted = all_effects;
   if (!strcmp(wanted, "none")) wanted = "";
   snprintf(state->effects, sizeof state->effects, "%s", wanted);
   char copy[sizeof state->effects], *rest = copy;
@@ -232,7 +234,8 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
                            .lamp = &state.lamp,
                            .store = &state.store,
                            .stop = stop};
-  enum slab_result result = povray_find(options->povray, &state.povray, error);
+  enum slab_result result = slab_file_check_target(options->output, options->precision, error);
+  if (!result) result = povray_find(options->povray, &state.povray, error);
   if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
   if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
   if (!result) result = probe_lamp(options, &state, error);
@@ -248,8 +251,8 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
     work.look.gain = choose_gain(options, state.lamp.peak);
     work.look.effects = state.effects;
     work.look.interreflection = has_word(state.effects, "interreflection");
-    work.check_photons =
-        has_word(state.effects, "caustics") && strcmp(options->effects, "all") != 0;
+    work.caustics = has_word(state.effects, "caustics");
+    work.caustics_named = work.caustics && state.effects_named;
     result = do_rounds(&work, &state, report, error);
   }
   /* A shard leaves the slab to the run without --shard. */

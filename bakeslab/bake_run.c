@@ -108,10 +108,11 @@ static enum slab_result explain_full_disk(const struct bake_store *store, enum s
 static enum slab_result check_photons(const struct run *run, const struct process *process,
                                       struct slab_error *error) {
   enum { TOO_FEW = 1000 };
-  if (!run->work->check_photons) return SLAB_OK;
+  if (!run->work->caustics) return SLAB_OK;
   double shot = povray_statistic(process->scratch, "Number of photons shot:");
   double stored = povray_statistic(process->scratch, "Surface photons stored:");
   if (shot >= TOO_FEW && stored > 0) return SLAB_OK;
+  if (!run->work->caustics_named && (shot <= 0 || shot >= TOO_FEW)) return SLAB_OK;
   return slab_fail(error, SLAB_BAD,
                    "%s: caustics: POV-Ray shot %.0f photons and stored %.0f; give the glass or "
                    "mirror `photons { target ... }`, keep its centre off the bulb's, or leave "

@@ -15,7 +15,8 @@ struct bake_work {
   const struct bake_store *store;
   const struct slab *slabs; /* lamp->slab_count of them */
   struct bake_look look;
-  bool check_photons; /* photons that shot nothing are an error */
+  bool caustics;       /* photons that missed are an error */
+  bool caustics_named; /* so is a lamp without any */
   const volatile sig_atomic_t *stop;
 };
 

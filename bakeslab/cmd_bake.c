@@ -126,11 +126,12 @@ static void parse_shard(struct argp_state *state, const char *text, struct bake_
 }
 
 static double parse_gain(struct argp_state *state, const char *text) {
+  const char *number = strncmp(text, "2^", 2) ? text : text + 2;
   char *end;
   int exponent;
-  double gain =
-      strncmp(text, "2^", 2) ? strtod(text, &end) : ldexp(1, (int)strtol(text + 2, &end, 10));
-  if (*end || end == text || !(gain >= 0x1p-100 && gain <= 0x1p100) ||
+  double gain = strtod(number, &end);
+  if (number != text) gain = exp2(gain);
+  if (*end || end == number || !(gain >= 0x1p-100 && gain <= 0x1p100) ||
       frexp(gain, &exponent) != 0.5)
     argp_error(state, "--gain %s: not a power of two such as 2^-8 or 0.125", text);
   return gain;

@@ -34,6 +34,10 @@ enum slab_result povray_find(const char *program, struct povray *povray, struct 
   if (strlen(program) >= sizeof povray->program)
     return slab_fail(error, SLAB_BAD, "%s: path too long", program);
   strcpy(povray->program, program);
+  /* A path from here is none from the folders where POV-Ray is to run. */
+  char *path = strchr(program, '/') ? realpath(program, NULL) : NULL;
+  if (path && strlen(path) < sizeof povray->program) strcpy(povray->program, path);
+  free(path);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return slab_fail(error, SLAB_IO, "pipe: %s", strerror(errno));
   pid_t pid = fork();
@@ -79,7 +83,8 @@ static enum slab_result write_ini(const struct povray_job *job, struct slab_erro
           "Input_File_Name=scene.pov\nOutput_File_Name=frame.exr\nOutput_File_Type=E\n"
           "Output_to_File=on\nWidth=%d\nHeight=%d\n",
           job->width, job->height);
-  if (job->frames > 1) fprintf(ini, "Initial_Frame=1\nFinal_Frame=%d\n", job->frames);
+  if (job->frames > 1) /* of one lamp: its clock stands still */
+    fprintf(ini, "Initial_Frame=1\nFinal_Frame=%d\nInitial_Clock=0\nFinal_Clock=0\n", job->frames);
   fputs("Display=off\nPause_When_Done=off\nVerbose=on\nAntialias=off\nQuality=9\nOutput_Alpha=off\n"
         "Work_Threads=1\nContinue_Trace=off\nRemove_Bounds=on\nBounding=on\n",
         ini);
@@ -176,13 +181,13 @@ enum slab_result povray_run(const struct povray *povray, const struct povray_job
   enum slab_result result = povray_start(povray, job, &pid, error);
   if (result) return result;
   int status = 0;
+  bool stopped = false;
   while (waitpid(pid, &status, 0) < 0) {
-    if (errno == EINTR) {
-      kill(pid, SIGKILL); /* the user's signal; nothing here is worth waiting for */
-      continue;
-    }
-    return slab_fail(error, SLAB_IO, "waitpid: %s", strerror(errno));
+    if (errno != EINTR) return slab_fail(error, SLAB_IO, "waitpid: %s", strerror(errno));
+    stopped = true;
+    kill(pid, SIGKILL); /* the user's signal; nothing here is worth waiting for */
   }
+  if (stopped) return slab_fail(error, SLAB_STOPPED, "interrupted");
   return povray_finish(job, status, error);
 }
 

@@ -47,6 +47,10 @@ enum slab_result slab_file_load_all(const char *path, struct slab **slabs, int *
                                     struct slab_error *error);
 void slab_file_free_all(struct slab *slabs, int count);
 
+/* Refuses what slab_file_write would refuse whatever the samples: before the work. */
+enum slab_result slab_file_check_target(const char *path, enum slab_precision precision,
+                                        struct slab_error *error);
+
 /* Writes all pages, whole or not at all (a temporary name beside the target,
  * then rename). The container follows the name: .tif, .tiff or .exr. */
 enum slab_result slab_file_write(const char *path, const struct slab *slabs, int count,

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 #include "slab_exr.h"
 #include "slab_file.h"
@@ -37,6 +38,16 @@ static enum slab_result choose(const char *path, enum slab_precision *precision,
                      "%s: EXR cannot hold LogLuv: name it .tif, or use --precision float or half",
                      path);
   return SLAB_OK;
+}
+
+enum slab_result slab_file_check_target(const char *path, enum slab_precision precision,
+                                        struct slab_error *error) {
+  bool exr;
+  struct stat status;
+  enum slab_result result = choose(path, &precision, &exr, error);
+  if (!result && stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+    result = slab_fail(error, SLAB_IO, "%s: exists and is not a regular file", path);
+  return result;
 }
 
 /* Why a sample cannot be written, or NULL. */
