@@ -41,11 +41,14 @@ enum slab_result bake_store_open(const char *output, bool shared, struct bake_st
   store->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (store->lock < 0)
     result = slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
-  else if (flock(store->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0)
+  else if (flock(store->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
     result = slab_fail(error, SLAB_IO, "%s: another bake of this output is at work; wait for it",
                        store->directory);
-  else if (!shared)
+    close(store->lock); /* the store is the other's: closing it here removes nothing */
+    store->lock = -1;
+  } else if (!shared) {
     sweep(store->directory);
+  }
   free(path);
   return result;
 }
