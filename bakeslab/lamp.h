@@ -10,7 +10,7 @@
 #include "povray.h"
 #include "slab.h"
 
-enum { LAMP_MAX_LIBRARIES = 32 };
+enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24 };
 
 /* Where POV-Ray finds what a script needs. Paths are absolute and owned. */
 struct lamp_source {
@@ -48,7 +48,7 @@ enum slab_result lamp_source_link(const struct lamp_source *source, const char *
  * number. The library must stay where it is: paths[] points into it. */
 struct lamp_library {
   const char *paths[LAMP_MAX_LIBRARIES + 3];
-  char names[LAMP_MAX_LIBRARIES][16];
+  char names[LAMP_MAX_LIBRARIES][LAMP_LINK_SIZE];
 };
 int lamp_source_library(const struct lamp_source *source, struct lamp_library *library);
 

@@ -68,8 +68,8 @@ void lamp_source_free(struct lamp_source *source) {
 /* Links in a scene's folder. */
 static const char script_link[] = "lamp.pov", folder_link[] = "lamp", canned_link[] = "canned";
 
-static const char *library_link(int n, char name[16]) {
-  snprintf(name, 16, "library%d", n);
+static const char *library_link(int n, char name[LAMP_LINK_SIZE]) {
+  snprintf(name, LAMP_LINK_SIZE, "library%d", n);
   return name;
 }
 
@@ -90,7 +90,7 @@ enum slab_result lamp_source_link(const struct lamp_source *source, const char *
   if (!result) result = make_link(directory, script_link, source->path, error);
   if (!result) result = make_link(directory, folder_link, source->folder, error);
   if (!result) result = make_link(directory, canned_link, source->include_pov, error);
-  char name[16];
+  char name[LAMP_LINK_SIZE];
   for (int n = 0; !result && source->libraries[n]; ++n)
     result = make_link(directory, library_link(n, name), source->libraries[n], error);
   return result;

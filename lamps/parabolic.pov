@@ -1,14 +1,14 @@
 // The lamp of "Canned Lightsources" (Heidrich, Kautz, Slusallek, Seidel, 1998), section 5
 // and figure 4: a diffuse parabolic reflector with a small spherical luminary at its focus,
-// behind a grid of 3 x 3 long blockers. Centimetres; it shines down, the opening is y = 0.
+// covered with a grid of 3 x 3 long blockers. Centimetres; it shines down through y = 0.
 // Bake: bakeslab bake parabolic.pov -o parabolic.tif
 // Licence: CC0
 #version 3.7;
 #include "canned.inc"
 
-#declare Radius = 10;                          // of the opening
-#declare Focus = 2.5;                          // focal length
-#declare Depth = Radius*Radius/(4*Focus);      // of the bowl
+#declare Radius = 10;                          // of the reflector's opening
+#declare Focus = 2.5;                          // its focal length
+#declare Depth = Radius*Radius/(4*Focus);      // its depth
 #declare Pitch = 5;                            // of the blockers
 #declare Height = 4;                           // they cut light off at slope Pitch/Height = 1.25
 #declare Thickness = 0.2;
@@ -18,18 +18,23 @@ Canned_Metres_Per_Unit(0.01)
 Canned_Radiance_Unit("W/(sr m2)")
 Canned_Needs("interreflection")
 Canned_Slab(<0, 0, 0>, <2*Radius, 0, 0>, <0, 0, 2*Radius>, <0, -1, 0>, <-1.5, 1.5, -1.5, 1.5>, 0)
-Canned_Bulb(<0, Depth - Focus, 0>, 1.5, 500)
+Canned_Bulb(<0, Height + Depth - Focus, 0>, 1.5, 500)
 
-// r^2 = 4 f (Depth - y)
-#declare Bowl = quadric { <1, 0, 1>, <0, 0, 0>, <0, 4*Focus, 0>, -4*Focus*Depth }
+#declare White = texture { pigment { rgb 0.8 } finish { diffuse 1 } }
+#declare Black = texture { pigment { rgb 0.02 } finish { diffuse 1 } }
 
-object {
-  Bowl
-  clipped_by { box { <-2*Radius, 0, -2*Radius>, <2*Radius, Depth + 1, 2*Radius> } }
-  pigment { rgb 0.8 } finish { diffuse 1 }
+// The reflector: a shell between two paraboloids r^2 = 4 f (Top - y).
+#declare Top = Height + Depth;
+#declare Bowl = quadric { <1, 0, 1>, <0, 0, 0>, <0, 4*Focus, 0>, -4*Focus*Top }
+intersection {
+  object { Bowl translate Thickness*y }
+  object { Bowl inverse }
+  plane { -y, -Height }
+  texture { White }
 }
 
-#declare Blocker = box { <-Radius, 0.1, -Thickness/2>, <Radius, 0.1 + Height, Thickness/2> }
+// The blockers, and a collar around them.
+#declare Blocker = box { <-Radius, 0.1, -Thickness/2>, <Radius, Height, Thickness/2> }
 intersection {
   union {
     #for (I, -1, 1)
@@ -37,9 +42,10 @@ intersection {
       object { Blocker rotate 90*y translate I*Pitch*x }
     #end
   }
-  object { Bowl scale <0.999, 1, 0.999> }
-  pigment { rgb 0.05 } finish { diffuse 1 }
+  cylinder { 0, 2*Height*y, Radius }
+  texture { Black }
 }
+cylinder { 0.1*y, Height*y, Radius open texture { Black } }
 
 // For previews only: the bake brings its own cameras.
 camera { location <12, -40, -25> look_at <0, 3, 0> angle 40 }
