@@ -1,0 +1,243 @@
+/* test_slab_flux.c - flux against Lambert's closed form and against brute
+ * quadrature of slab_lookup; flux and means under resampling and cropping. */
+#include <math.h>
+#include <string.h>
+
+#include "helpers.h"
+#include "slab_resample.h"
+
+/* int int 1/(1 + x^2 + y^2)^2 over [0,x] x [0,y]: Lambert's corner sum. */
+static double corner(double x, double y) {
+  double cx = sqrt(1 + x * x), cy = sqrt(1 + y * y);
+  return (x / cx * atan(y / cx) + y / cy * atan(x / cy)) / 2;
+}
+
+static const int grids[][4] = {{1, 1, 1, 1}, {2, 3, 4, 5}, {3, 1, 16, 2}, {1, 1, 64, 64}};
+
+static void test_constant_infinite(void **state) {
+  (void)state;
+  static const double windows[][4] = {
+      {-1, 1, -1, 1},         {-1.5, 1.5, -1.5, 1.5}, {-0.2, 3, 0.5, 2},   {-100, 100, -100, 100},
+      {-1e6, 1e6, -1e6, 1e6}, {2, 9, -7, -0.01},      {0, 1e-6, 5, 5.0001}};
+  for (size_t g = 0; g < 4; ++g)
+    for (size_t n = 0; n < 7; ++n) {
+      struct slab slab = awkward_slab(grids[g], INFINITY);
+      const double *w = windows[n];
+      memcpy(slab.st_window, w, sizeof slab.st_window);
+      for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] = 1 + (float)(k % 3);
+      double flux[3];
+      double expected =
+          0.4 * 0.7 *
+          (corner(w[1], w[3]) - corner(w[0], w[3]) - corner(w[1], w[2]) + corner(w[0], w[2]));
+      slab_flux(&slab, flux);
+      for (int c = 0; c < 3; ++c)
+        assert_near(flux[c] / (1 + c) / expected, 1, n == 6 ? 1e-4 : 5e-7); /* 6: corners cancel */
+      slab_free(&slab);
+    }
+}
+
+/* The hemisphere: pi times the area. */
+static void test_hemisphere(void **state) {
+  (void)state;
+  struct slab slab = awkward_slab((const int[]){2, 2, 3, 3}, INFINITY);
+  double flux[3];
+  for (int k = 0; k < 4; ++k) slab.st_window[k] = k % 2 ? 1e7 : -1e7;
+  for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] = 1;
+  slab_flux(&slab, flux);
+  assert_near(flux[0], 3.14159265358979 * 0.28, 1e-6);
+  slab_free(&slab);
+}
+
+/* Constant radiance through a finite window: the exchange of two parallel
+ * rectangles, int da db of the window's corner sum as seen from (a,b). */
+static void test_constant_finite(void **state) {
+  (void)state;
+  static const double distances[] = {0.1, 0.5, 2, 1e9};
+  for (size_t g = 0; g < 3; ++g)
+    for (size_t d = 0; d < 4; ++d) {
+      struct slab slab = awkward_slab(grids[g], distances[d]);
+      const double *w = slab.st_window;
+      double kappa = 1 / distances[d], expected = 0, flux[3];
+      enum { N = 400 };
+      for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) {
+          double a = kappa * 0.4 * ((i + 0.5) / N - 0.5), b = kappa * 0.7 * ((j + 0.5) / N - 0.5);
+          expected += corner(w[1] - a, w[3] - b) - corner(w[0] - a, w[3] - b) -
+                      corner(w[1] - a, w[2] - b) + corner(w[0] - a, w[2] - b);
+        }
+      expected *= 0.28 / N / N;
+      for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] = 1;
+      slab_flux(&slab, flux);
+      assert_near(flux[0] / expected, 1, 2e-5); /* the midpoint sum's own error */
+      slab_free(&slab);
+    }
+}
+
+/* Midpoint sums on n^4 points, twice, extrapolated. Kinks lie on cell limits
+ * when n is a multiple of twice the samples. */
+static double brute_flux(const struct slab *slab, int n) {
+  const double *w = slab->st_window;
+  double kappa = slab_kappa(slab), sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k)
+        for (int l = 0; l < n; ++l) {
+          double a = 0.4 * ((i + 0.5) / n - 0.5), b = 0.7 * ((j + 0.5) / n - 0.5), rgb[3];
+          double s = w[0] + (k + 0.5) / n * (w[1] - w[0]), t = w[2] + (l + 0.5) / n * (w[3] - w[2]);
+          double q = 1 + pow(s - kappa * a, 2) + pow(t - kappa * b, 2);
+          slab_lookup(slab, a, b, s, t, rgb);
+          sum += rgb[1] / (q * q);
+        }
+  return sum / pow(n, 4) * 0.28 * (w[1] - w[0]) * (w[3] - w[2]);
+}
+
+static void test_against_lookup(void **state) {
+  (void)state;
+  static const int small[][4] = {{1, 1, 1, 1}, {2, 1, 3, 2}, {3, 2, 1, 3}};
+  static const double distances[] = {INFINITY, 0.1, 0.5, 3};
+  for (size_t g = 0; g < 3; ++g)
+    for (size_t d = 0; d < 4; ++d) {
+      struct slab slab = awkward_slab(small[g], distances[d]);
+      double flux[3];
+      fill_colours(&slab, (uint32_t)(g + 3));
+      slab_flux(&slab, flux);
+      double coarse = brute_flux(&slab, 12), fine = brute_flux(&slab, 24);
+      assert_near(flux[1] / ((4 * fine - coarse) / 3), 1, 2e-5);
+      slab_free(&slab);
+    }
+}
+
+/* Linear in the samples, negative ones too. */
+static void test_superposition(void **state) {
+  (void)state;
+  struct slab a = awkward_slab(grids[1], 0.7), b = awkward_slab(grids[1], 0.7);
+  struct slab c = awkward_slab(grids[1], 0.7);
+  fill_colours(&a, 1);
+  fill_colours(&b, 2);
+  for (size_t k = 0; k < 3 * slab_sample_count(&a); ++k) c.rgb[k] = a.rgb[k] - 2 * b.rgb[k];
+  double x[3], y[3], z[3];
+  slab_flux(&a, x), slab_flux(&b, y), slab_flux(&c, z);
+  for (int k = 0; k < 3; ++k) assert_near(z[k], x[k] - 2 * y[k], 1e-8);
+  slab_free(&a), slab_free(&b), slab_free(&c);
+}
+
+static double mean(const struct slab *slab, int c) {
+  double sum = 0;
+  size_t count = slab_sample_count(slab);
+  for (size_t k = 0; k < count; ++k) sum += (double)slab->rgb[3 * k + (size_t)c];
+  return sum / (double)count;
+}
+
+/* Any ratio of reduction keeps the mean: an odd last cell weighs by its area. */
+static void test_reduction_keeps_energy(void **state) {
+  (void)state;
+  static const int to[][4] = {{1, 1, 1, 1}, {2, 3, 4, 3}, {5, 2, 6, 1}, {3, 5, 7, 2}};
+  struct slab slab = awkward_slab((const int[]){5, 6, 7, 3}, 2);
+  struct slab_error error = {{0}};
+  fill_colours(&slab, 8);
+  for (size_t n = 0; n < 4; ++n) {
+    struct slab small = {0};
+    assert_ok(slab_resample(&slab, to[n], &small, &error), &error);
+    assert_memory_equal(small.samples, to[n], sizeof small.samples);
+    for (int c = 0; c < 3; ++c) assert_near(mean(&small, c), mean(&slab, c), 2e-7);
+    slab_free(&small);
+  }
+  slab_free(&slab);
+}
+
+/* 5 cells to 2: the middle one counts half in each. */
+static void test_reduction_by_share(void **state) {
+  (void)state;
+  struct slab slab = awkward_slab((const int[]){1, 1, 5, 1}, 2), small = {0};
+  struct slab_error error = {{0}};
+  for (int k = 0; k < 5; ++k) slab.rgb[3 * k] = (float)(1 << k);
+  assert_ok(slab_resample(&slab, (const int[]){1, 1, 2, 1}, &small, &error), &error);
+  assert_near((double)small.rgb[0], (1 + 2 + 2) / 2.5, 1e-6);
+  assert_near((double)small.rgb[3], (2 + 8 + 16) / 2.5, 1e-6);
+  slab_free(&small);
+  /* 2x2 blocks of uv are the paper's next level. */
+  struct slab views = awkward_slab((const int[]){4, 4, 3, 2}, 2);
+  fill_colours(&views, 3);
+  assert_ok(slab_resample(&views, (const int[]){2, 2, 3, 2}, &small, &error), &error);
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < 3; ++c) {
+      double sum = 0;
+      for (int n = 0; n < 4; ++n) sum += (double)slab_at(&views, 2 + n % 2, n / 2, k, 1)[c];
+      assert_near((double)slab_at(&small, 1, 0, k, 1)[c], sum / 4, 1e-7);
+    }
+  slab_free(&small);
+  slab_free(&views);
+  slab_free(&slab);
+}
+
+/* Enlarging interpolates: new samples are the oracle's values there. */
+static void test_enlargement(void **state) {
+  (void)state;
+  struct slab slab = awkward_slab((const int[]){2, 3, 2, 1}, 2), large = {0};
+  struct slab_error error = {{0}};
+  fill_colours(&slab, 6);
+  assert_ok(slab_resample(&slab, (const int[]){5, 4, 6, 3}, &large, &error), &error);
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 6; ++k)
+        for (int l = 0; l < 3; ++l) {
+          double rgb[3];
+          oracle_lookup(&slab, ((i + 0.5) / 5 - 0.5) * 0.4, ((j + 0.5) / 4 - 0.5) * 0.7,
+                        -0.3 + (k + 0.5) / 6 * 1.4, 0.2 + (l + 0.5) / 3 * 0.7, rgb);
+          for (int c = 0; c < 3; ++c)
+            assert_near((double)slab_at(&large, i, j, k, l)[c], rgb[c], 3e-7);
+        }
+  slab_free(&large);
+  slab_free(&slab);
+}
+
+/* A ray through the cropped part sees the same sample, both st planes. */
+static void test_crop(void **state) {
+  (void)state;
+  static const double distances[] = {INFINITY, 0.3};
+  const int first[4] = {1, 0, 2, 1}, end[4] = {4, 2, 7, 3};
+  for (int d = 0; d < 2; ++d) {
+    struct slab slab = awkward_slab((const int[]){5, 2, 8, 4}, distances[d]), part = {0};
+    struct slab_error error = {{0}};
+    fill_colours(&slab, 12);
+    assert_ok(slab_crop(&slab, first, end, &part, &error), &error);
+    assert_ok(slab_check(&part, &error), &error);
+    double kappa = slab_kappa(&slab);
+    for (int i = first[0]; i < end[0]; ++i)
+      for (int j = first[1]; j < end[1]; ++j)
+        for (int k = first[2]; k < end[2]; ++k)
+          for (int l = first[3]; l < end[3]; ++l) {
+            double a = slab_position(&slab, 0, i), b = slab_position(&slab, 1, j);
+            double s = slab_position(&slab, 2, k), t = slab_position(&slab, 3, l);
+            const double up[3] = {0.6, 0, 0.8}, vp[3] = {0, 1, 0};
+            double origin[3], direction[3], abst[4], rgb[3];
+            for (int c = 0; c < 3; ++c) {
+              origin[c] = slab.center[c] + a * up[c] + b * vp[c];
+              direction[c] = slab.normal[c] + (s - kappa * a) * up[c] + (t - kappa * b) * vp[c];
+            }
+            assert_true(slab_ray(&part, origin, direction, abst));
+            slab_lookup(&part, abst[0], abst[1], abst[2], abst[3], rgb);
+            for (int c = 0; c < 3; ++c)
+              assert_near(rgb[c], (double)slab_at(&slab, i, j, k, l)[c], 1e-6);
+          }
+    slab_free(&part);
+    assert_refused(slab_crop(&slab, first, (const int[]){4, 3, 7, 3}, &part, &error), &error,
+                   "crop v", NULL);
+    slab_free(&slab);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_constant_infinite),
+      cmocka_unit_test(test_hemisphere),
+      cmocka_unit_test(test_constant_finite),
+      cmocka_unit_test(test_against_lookup),
+      cmocka_unit_test(test_superposition),
+      cmocka_unit_test(test_reduction_keeps_energy),
+      cmocka_unit_test(test_reduction_by_share),
+      cmocka_unit_test(test_enlargement),
+      cmocka_unit_test(test_crop),
+  };
+  return cmocka_run_group_tests_name("flux and resampling", tests, NULL, NULL);
+}
