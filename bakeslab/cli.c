@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MAX_SIZE = 65536 };
 
@@ -90,13 +91,19 @@ const char *cli_command_line(void) {
   return command_line ? command_line : "bakeslab";
 }
 
+static int stdout_status = -1; /* not closed yet */
+
 int cli_close_stdout(void) {
-  static int status = -1; /* stdout is closed once, then the answer stays */
-  if (status >= 0) return status;
+  if (stdout_status >= 0) return stdout_status;
   bool failed = ferror(stdout) != 0;
   errno = 0;
   if (fclose(stdout) != 0) failed = true;
-  status = failed ? CLI_FAILED : CLI_OK;
+  stdout_status = failed ? CLI_FAILED : CLI_OK;
   if (failed) cli_complain("stdout: %s", errno ? strerror(errno) : "could not be written");
-  return status;
+  return stdout_status;
+}
+
+void cli_check_stdout_at_exit(void) {
+  /* Who closed it himself has already chosen his exit status. */
+  if (stdout_status < 0 && cli_close_stdout() != CLI_OK) _exit(CLI_FAILED);
 }

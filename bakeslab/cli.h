@@ -38,8 +38,11 @@ const char *cli_command_line(void);
 void cli_set_command_line(int argc, char **argv);
 
 /* Flushes stdout and says whether all that was printed got there: a full disk
- * or a closed pipe is an error. Returns an exit status; main calls it at exit
- * once more, for those who forgot (argp's --help). */
+ * or a closed pipe is an error. Returns an exit status. */
 int cli_close_stdout(void);
+
+/* For atexit: does the same for those who did not (argp's --help), and makes
+ * the exit status 1 where it fails. */
+void cli_check_stdout_at_exit(void);
 
 #endif

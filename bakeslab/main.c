@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli.h"
 
@@ -74,12 +73,8 @@ static int run_help(int argc, char **argv) {
   return run_command(command, 2, help_argv);
 }
 
-static void check_stdout(void) {
-  if (cli_close_stdout() != CLI_OK) _exit(CLI_FAILED);
-}
-
 int main(int argc, char **argv) {
-  atexit(check_stdout);
+  atexit(cli_check_stdout_at_exit);
   argp_err_exit_status = CLI_USAGE;
   argp_program_version = "bakeslab " BAKESLAB_VERSION;
   cli_set_command_line(argc, argv);

@@ -48,6 +48,7 @@ static int spool_stdin(void) {
   int fd = ok && fflush(file) == 0 ? dup(fileno(file)) : -1;
   int why = errno;
   fclose(file);
+  if (fd >= 0) lseek(fd, 0, SEEK_SET); /* libtiff reads from where it stands */
   errno = why;
   return fd;
 }

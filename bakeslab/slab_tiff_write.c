@@ -1,5 +1,5 @@
 /* slab_tiff_write.c - writes pages as tiled LogLuv, float or half TIFF. */
-#include <math.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +37,12 @@ static int remember(TIFF *tif, void *data, const char *module, const char *forma
                     va_list arguments) {
   (void)tif, (void)module;
   struct writer *writer = data;
+  if (writer->failed) return 1; /* the first complaint names the cause */
   writer->failed = true;
-  vsnprintf(writer->why, sizeof writer->why, format, arguments);
+  int why = errno; /* libtiff itself does not say that a disk is full */
+  int used = vsnprintf(writer->why, sizeof writer->why, format, arguments);
+  if (why && used >= 0 && (size_t)used < sizeof writer->why)
+    snprintf(writer->why + used, sizeof writer->why - (size_t)used, ": %s", strerror(why));
   return 1;
 }
 
@@ -133,6 +137,7 @@ enum slab_result slab_tiff_write(struct slab_output *output, const struct slab_r
                                  int count, struct slab_error *error) {
   struct writer writer = {0};
   TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
+  errno = 0;
   int fd = dup(output->fd); /* libtiff closes its own, the output syncs the other */
   if (options && fd >= 0) {
     TIFFOpenOptionsSetErrorHandlerExtR(options, remember, &writer);

@@ -1,0 +1,248 @@
+#!/usr/bin/env bats
+# info, check, lookup, convert, diff on slabs that are written byte by byte here.
+
+bats_require_minimum_version 1.5.0
+load slab
+
+setup() {
+  cd "$BATS_TEST_TMPDIR"
+  # 2 x 1 views of 2 x 2: red ramps 1 2 3 4 along the raster's row, green 0.5, blue 0
+  raw_slab a.tif '[2, 1, 2, 2]' 4 2 ', "name": "ramp", "x-key": [7]' \
+    3f800000 3f000000 00000000  40000000 3f000000 00000000 \
+    40400000 3f000000 00000000  40800000 3f000000 00000000
+  one=3f800000
+}
+
+@test "info prints geometry, flux and peak" {
+  run --separate-stderr "$BAKESLAB" info a.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *"a.tif: page 1 of 1: ramp"* ]]
+  [[ $output == *"2 x 1 x 2 x 2, float"* ]]
+  [[ $output == *"st distance"*"infinite"* ]]
+  [[ $output == *"4 0.5 0"*"at sample (1, 0, 1, 0)"* ]]
+}
+
+@test "info --json: a constant slab has Lambert's flux" {
+  # radiance 1: 0.04 * 4 corner(1,1), corner = atan(1/sqrt 2)/sqrt 2 = 0.435209...
+  raw_slab one.tif '[1, 1, 1, 1]' 1 1 ', "metres_per_unit": 0.5, "radiance_unit": "W/(sr m2)"' $one $one $one
+  run --separate-stderr "$BAKESLAB" info --json one.tif
+  [ "$status" -eq 0 ]
+  flux=$(tr -d ' \n' <<<"$output" | sed 's/.*"flux":\[\([0-9.e-]*\),.*/\1/')
+  awk -v f="$flux" 'BEGIN { c = atan2(1, sqrt(2)) / sqrt(2); e = 0.04 * 4 * c * 0.25; exit !(f/e - 1 < 1e-6 && 1 - f/e < 1e-6) }'
+  [[ $output == *'"flux_unit": "W"'* ]]
+}
+
+@test "lookup answers rays, in order, outside with zeros" {
+  run --separate-stderr "$BAKESLAB" lookup a.tif <<'END'
+# i=0: a=-0.05; k=1: s=0.5; any point of the ray will do
+-0.05 0 0   0.5 -1 0
+0.45 -1 0.25   0.5 -1 0.25
+0 0 0   0 1 0
+
+9 0 0   0 -1 0
+0 0 0   0 -2 0
+END
+  [ "$status" -eq 0 ]
+  [ "${lines[0]}" = "2 0.5 0" ]
+  [ "${lines[1]}" = "2 0.5 0" ]
+  [ "${lines[2]}" = "0 0 0" ]
+  [ "${lines[3]}" = "0 0 0" ]
+  [ "${lines[4]}" = "2.5 0.5 0" ]
+  [ "${#lines[@]}" -eq 5 ]
+}
+
+@test "lookup refuses bad lines by number" {
+  for line in "1 2 3 4 5" "1 2 3 4 5 6 7" "0 0 0 0 0 0" "0 0 nan 0 -1 0" "a b c d e f" "0 0 0 0 inf 0"; do
+    run --separate-stderr "$BAKESLAB" lookup a.tif <<<"0 0 0 0 -1 0
+$line"
+    refused 1 "stdin: line 2"
+  done
+  run --separate-stderr "$BAKESLAB" lookup --page 2 a.tif </dev/null
+  refused 1 "a.tif: has no page 2"
+}
+
+@test "lookup adds pages, --page takes one" {
+  "$BAKESLAB" convert a.tif -o f.tif --precision float
+  command -v tiffcp >/dev/null || skip "no tiffcp"
+  tiffcp f.tif f.tif two.tif
+  run --separate-stderr "$BAKESLAB" lookup two.tif <<<"0 0 0 0 -1 0"
+  [ "$output" = "5 1 0" ]
+  run --separate-stderr "$BAKESLAB" lookup --page 2 two.tif <<<"0 0 0 0 -1 0"
+  [ "$output" = "2.5 0.5 0" ]
+}
+
+@test "a slab on stdin" {
+  run --separate-stderr "$BAKESLAB" info - <a.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *"2 x 1 x 2 x 2"* ]]
+}
+
+@test "convert: every container keeps the samples, keys and history" {
+  "$BAKESLAB" convert a.tif -o b.exr
+  "$BAKESLAB" convert b.exr -o c.tif --precision half
+  "$BAKESLAB" convert c.tif -o d.exr --precision half
+  "$BAKESLAB" convert d.exr -o e.tif --precision float
+  run --separate-stderr "$BAKESLAB" diff a.tif e.tif
+  [ "$status" -eq 0 ]
+  grep -aq '"x-key": \[7\]' e.tif
+  run --separate-stderr "$BAKESLAB" info --json e.tif
+  [[ $output == *"bakeslab convert d.exr -o e.tif --precision float"* ]]
+  [[ $output == *'"history"'*"bakeslab convert a.tif -o b.exr"*"bakeslab convert b.exr"* ]]
+}
+
+@test "convert: resolution and crop" {
+  "$BAKESLAB" convert a.tif -o mean.exr --uv 1x1 --st 1
+  run --separate-stderr "$BAKESLAB" lookup mean.exr <<<"0 0 0 0 -1 0"
+  [ "$output" = "2.5 0.5 0" ]
+  "$BAKESLAB" convert a.tif -o crop.exr --crop uv=1:2,0:1 --crop st=0:1,0:2
+  # centre (0.05, 0, 0), slopes -1..0
+  run --separate-stderr "$BAKESLAB" lookup crop.exr <<<"0.05 0 0 -0.5 -1 0
+0.05 0 0 0.5 -1 0
+-0.05 0 0 -0.5 -1 0"
+  [ "${lines[0]}" = "3 0.5 0" ]
+  [ "${lines[1]}" = "0 0 0" ]
+  [ "${lines[2]}" = "0 0 0" ]
+  run --separate-stderr "$BAKESLAB" convert a.tif -o x.exr --crop uv=1:3,0:1
+  refused 1 "a.tif: page 1" "crop u"
+  [ ! -e x.exr ]
+}
+
+@test "convert refuses what a precision cannot hold, and leaves nothing" {
+  raw_slab neg.tif '[1, 1, 1, 1]' 1 1 '' bf800000 bf800000 bf800000
+  run --separate-stderr "$BAKESLAB" convert neg.tif -o out.tif
+  refused 1 "out.tif: page 1: sample (0, 0, 0, 0)" "--precision float"
+  raw_slab big.tif '[1, 1, 1, 1]' 1 1 '' 47c35000 $one $one
+  run --separate-stderr "$BAKESLAB" convert big.tif -o out.exr --precision half
+  refused 1 "out.exr: page 1" "--precision float"
+  [ -z "$(ls out* 2>/dev/null)" ]
+}
+
+@test "diff: 0 same, 1 differ, 2 trouble" {
+  "$BAKESLAB" convert a.tif -o l.tif
+  run --separate-stderr "$BAKESLAB" diff a.tif l.tif
+  [ "$status" -eq 1 ]
+  [[ $output == *"rmse"*"largest"*"flux"* ]]
+  run --separate-stderr "$BAKESLAB" diff --tolerance 0.03 a.tif l.tif
+  [ "$status" -eq 0 ]
+  "$BAKESLAB" convert a.tif -o s.exr --uv 1x1
+  run --separate-stderr "$BAKESLAB" diff --tolerance 9 a.tif s.exr
+  [ "$status" -eq 1 ]
+  [[ $output == *'"samples" differs'* ]]
+  run --separate-stderr "$BAKESLAB" diff a.tif none.tif
+  refused 2 "none.tif" "No such file"
+  run --separate-stderr "$BAKESLAB" diff a.tif
+  [ "$status" -eq 2 ]
+}
+
+@test "check: warnings are no errors, unless --strict" {
+  run --separate-stderr "$BAKESLAB" check a.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *"warning: light is cut off at the high end of s (st window)"*"more than 2 %"* ]]
+  [[ $output == *"a.tif: page 1: valid"* ]]
+  run --separate-stderr "$BAKESLAB" check --strict a.tif
+  [ "$status" -eq 1 ]
+  raw_slab dark.tif '[1, 1, 3, 1]' 3 1 '' 0000000000000000000000003f8000003f8000003f800000000000000000000000000000
+  run --separate-stderr "$BAKESLAB" check --strict dark.tif
+  [ "$status" -eq 0 ]
+  [[ $output != *warning* ]]
+}
+
+@test "bad files: one line with file, page and reason, by every command" {
+  raw_slab nan.tif '[2, 1, 2, 2]' 4 2 '' $one $one $one $one 7fc00000 $one
+  raw_slab wrong.tif '[2, 1, 2, 3]' 4 2 '' $one
+  raw_slab new.tif '[2, 1, 2, 2]' 4 2 ', "version": 2' $one
+  head -c 300 a.tif >cut.tif
+  head -c -1 a.tif >short.tif
+  : >empty.tif
+  echo "not a slab" >text.tif
+  for command in info check lookup "convert -o out.exr" diff; do
+    for bad in nan.tif wrong.tif new.tif cut.tif short.tif empty.tif text.tif none.tif .; do
+      other=
+      want=1
+      if [ "$command" = diff ]; then other=a.tif want=2; fi
+      # shellcheck disable=SC2086
+      run --separate-stderr "$BAKESLAB" $command $bad $other <<<"0.05 0 0 0 -1 0"
+      refused $want "$bad: "
+      case $bad in
+      nan.tif) [[ $stderr == *"page 1: sample (0, 0, 1, 0) is not finite"* ]] ;;
+      wrong.tif) [[ $stderr == *'page 1: "samples" 2 x 1 x 2 x 3 need 4 x 3 pixels'* ]] ;;
+      empty.tif) [[ $stderr == *"is empty"* ]] ;;
+      text.tif) [[ $stderr == *"neither TIFF nor EXR"* ]] ;;
+      esac
+    done
+  done
+  [ ! -e out.exr ]
+}
+
+@test "usage errors exit 2 and say what is wrong" {
+  for arguments in "" "frobnicate" "info" "info a.tif b.tif" "info --nonsense a.tif" "lookup --page 0 a.tif" \
+    "convert a.tif" "convert -o x.tif" "convert a.tif -o x.tif --precision double" \
+    "convert a.tif -o x.tif --uv 0x3" "convert a.tif -o x.tif --st 3x" "convert a.tif -o x.tif --crop uv=2:1,0:1" \
+    "diff a.tif a.tif --tolerance x"; do
+    # shellcheck disable=SC2086
+    run --separate-stderr "$BAKESLAB" $arguments
+    [ "$status" -eq 2 ]
+    [ -n "$stderr" ]
+    [ -z "$output" ]
+  done
+}
+
+@test "help and version go to stdout, with examples" {
+  for command in info check lookup convert diff; do
+    run --separate-stderr "$BAKESLAB" $command --help
+    [ "$status" -eq 0 ]
+    [[ $output == *"Usage: bakeslab $command"*"Examples:"*"bakeslab $command"* ]]
+    [ "$("$BAKESLAB" help $command)" = "$output" ]
+  done
+  run --separate-stderr "$BAKESLAB" --version
+  [ "$status" -eq 0 ]
+  [[ $output == bakeslab\ [0-9]* ]]
+}
+
+@test "a full stdout is an error" {
+  [ -c /dev/full ] || skip "no /dev/full"
+  for command in "info a.tif" "info --json a.tif" "check a.tif" "lookup a.tif" "info --help" "--help" "--version"; do
+    # shellcheck disable=SC2086
+    run bash -c "echo 0 0 0 0 -1 0 | \"\$0\" $command 2>err >/dev/full" "$BAKESLAB"
+    [ "$status" -eq 1 ]
+    grep -q "bakeslab: stdout: No space left" err
+  done
+  run bash -c '"$0" diff a.tif a.tif 2>err >/dev/full' "$BAKESLAB"
+  [ "$status" -eq 2 ]
+}
+
+@test "a closed pipe is an error" {
+  run bash -c 'trap "" PIPE; ("$0" info a.tif; echo $? >status) | true; cat status' "$BAKESLAB"
+  [[ $output == *1 ]]
+}
+
+@test "an output that cannot be written" {
+  run --separate-stderr "$BAKESLAB" convert a.tif -o none/out.tif
+  refused 1 "none/out.tif" "No such file"
+  mkdir folder.tif
+  run --separate-stderr "$BAKESLAB" convert a.tif -o folder.tif
+  refused 1 "folder.tif" "not a regular file"
+  run --separate-stderr "$BAKESLAB" convert a.tif -o out.png
+  refused 1 "out.png" ".exr"
+  [ "$(id -u)" -eq 0 ] && return
+  mkdir locked
+  chmod a-w locked
+  run --separate-stderr "$BAKESLAB" convert a.tif -o locked/out.tif
+  refused 1 "locked/out.tif" "Permission denied"
+}
+
+@test "a disk that fills: the old file stays, nothing else does" {
+  [ "$(id -u)" -eq 0 ] || skip "needs root to mount"
+  mkdir disk
+  mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null || skip "cannot mount"
+  "$BAKESLAB" convert a.tif -o noise.exr --uv 60x60 --st 16x16
+  for name in out.tif out.exr; do
+    echo old >disk/$name
+    run --separate-stderr "$BAKESLAB" convert noise.exr -o disk/$name --precision float
+    refused 1 "disk/$name" "No space left" || { umount disk; false; }
+    [ "$(cat disk/$name)" = old ]
+    [ "$(find disk -type f | wc -l)" -eq 1 ] || { umount disk; false; }
+    rm disk/$name
+  done
+  umount disk
+}
