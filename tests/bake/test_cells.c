@@ -13,7 +13,7 @@ static const struct bakes_frame frame = {{0, 0, 0}, {2, 0, 0},          {0, 1, 0
 static const struct bakes_frame nearby = {{0, 0, 0},  {2, 0, 0},          {0, 1, 0},
                                           {0, 0, -1}, {-1, 1, -0.8, 0.8}, 2};
 
-/* Lit a little beyond the middle, and nothing else: one cell in 30 sees it. */
+/* Lit a little beyond the middle, and nothing else. */
 static const double depth = 3, pane[4] = {0.23, 0.71, -0.33, 0.05};
 /* The same with its edges elsewhere in their cells. */
 enum { PANES = 4 };
@@ -59,9 +59,9 @@ static int bake_all(void **state) {
     snprintf(lamp, sizeof lamp, "pane-%d", n);
     pane_lamp(lamp, panes[n], "rgb <1, 0.5, 2>");
     snprintf(name, sizeof name, "uniform-%d.exr", n);
-    bakes_start(lamp, name, "--uv 6x4 --st 32x32 --rays 16 --uniform");
+    bakes_start(lamp, name, "--uv 3x2 --st 64x64 --rays 16 --uniform");
     snprintf(name, sizeof name, "adaptive-%d.exr", n);
-    bakes_start(lamp, name, "--uv 6x4 --st 32x32 --rays 16");
+    bakes_start(lamp, name, "--uv 3x2 --st 64x64 --rays 16");
   }
   bakes_lamp("flat");
   bakes_lamp_slab("flat", &frame);
@@ -72,38 +72,40 @@ static int bake_all(void **state) {
   return 0;
 }
 
-/* RMS difference of the red samples from the cell means. */
-static double pane_error(const char *output, const double rectangle[4]) {
+/* RMS difference of the red samples from the cell means; `random` gets what it would
+ * be with one random ray a sample. */
+static double pane_error(const char *output, const double rectangle[4], double *random) {
   struct slab slab = bakes_load(output, 0);
   const int *n = slab.samples;
-  double sum = 0;
+  double sum = 0, variance = 0, count = (double)slab_sample_count(&slab);
   for (int j = 0; j < n[1]; ++j)
     for (int i = 0; i < n[0]; ++i)
       for (int l = 0; l < n[3]; ++l)
         for (int k = 0; k < n[2]; ++k) {
-          double difference = (double)slab_at(&slab, i, j, k, l)[0] -
-                              bakes_pane(&slab, depth, rectangle, i, j, k, l);
+          double mean = bakes_pane(&slab, depth, rectangle, i, j, k, l);
+          double difference = (double)slab_at(&slab, i, j, k, l)[0] - mean;
           sum += difference * difference;
+          variance += mean * (1 - mean);
         }
-  sum = sqrt(sum / (double)slab_sample_count(&slab));
   slab_free(&slab);
-  return sum;
+  if (random) *random = sqrt(variance / count);
+  return sqrt(sum / count);
 }
 
-/* The error of K rays falls at least as that of K random ones would. */
+/* The mean is that of the cell, and K rays come nearer to it than K random ones would. */
 static void test_hard_edge(void **state) {
   (void)state;
   static const int rays[] = {2, 4, 16, 64, 256};
-  double errors[5];
+  double before = 1, random;
   for (int n = 0; n < 5; ++n) {
     char name[64];
     snprintf(name, sizeof name, "pane%d.exr", rays[n]);
-    errors[n] = pane_error(name, pane);
-    print_message("# %3d rays: %.4f\n", rays[n], errors[n]);
-    if (n) assert_true(errors[n] < errors[n - 1]);
+    double error = pane_error(name, pane, &random);
+    random /= sqrt(rays[n]);
+    print_message("# %3d rays: %.4f, random ones %.4f\n", rays[n], error, random);
+    assert_true(error < before && error < random);
+    before = error;
   }
-  assert_true(errors[4] < errors[0] / 11);
-  assert_true(errors[4] < 0.004);
 }
 
 /* --centre: lit or not, as the ray through the middle of the cell is. */
@@ -124,7 +126,7 @@ static void test_centre(void **state) {
           lit += inside;
           assert_true(slab_at(&slab, i, j, k, l)[0] == (inside ? 1 : 0));
         }
-  assert_true(lit > 50);
+  assert_true(lit > 5);
   assert_non_null(strstr(slab.json, "\"samples_are\": \"points\""));
   slab_free(&slab);
   slab = bakes_load("pane2.exr", 0);
@@ -192,9 +194,9 @@ static void test_adaptive(void **state) {
   for (int n = 0; n < PANES; ++n) {
     char name[64];
     snprintf(name, sizeof name, "uniform-%d.exr", n);
-    double before = pane_error(name, panes[n]);
+    double before = pane_error(name, panes[n], NULL);
     snprintf(name, sizeof name, "adaptive-%d.exr", n);
-    double after = pane_error(name, panes[n]);
+    double after = pane_error(name, panes[n], NULL);
     struct slab slab = bakes_load(name, 0);
     double rays = bakes_provenance(&slab, "rays", NULL);
     slab_free(&slab);
@@ -204,7 +206,7 @@ static void test_adaptive(void **state) {
     uniform += before * before;
     adaptive += after * after;
   }
-  assert_true(sqrt(adaptive) < 0.8 * sqrt(uniform));
+  assert_true(sqrt(adaptive) < 0.6 * sqrt(uniform));
 }
 
 /* Stated noise is an upper estimate, within a factor, of the true error. */
@@ -219,7 +221,7 @@ static void test_noise(void **state) {
     double stated = bakes_provenance(&slab, "noise", "sample") / luminance;
     double stated_flux = bakes_provenance(&slab, "noise", "flux");
     slab_free(&slab);
-    double error = pane_error(name, panes[n / 2]), flux = flux_error(name, panes[n / 2]);
+    double error = pane_error(name, panes[n / 2], NULL), flux = flux_error(name, panes[n / 2]);
     print_message("# %-14s samples %.4f, stated %.4f; flux %+.4f, stated %.4f\n", name, error,
                   stated, flux, stated_flux);
     assert_true(stated > 0.7 * error && stated < 4 * error);
