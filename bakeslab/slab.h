@@ -31,10 +31,10 @@ struct slab {
   char name[SLAB_NAME_SIZE];
   int samples[SLAB_AXES]; /* Nu, Nv, Ns, Nt, each >= 1 */
   double center[3];
-  double u[3], v[3];      /* full edge vectors, perpendicular */
-  double normal[3];       /* unit; never derived from u x v */
-  double st_window[4];    /* s0, s1, t0, t1: slopes as seen from center */
-  double st_distance;     /* of the st plane along the normal; INFINITY allowed */
+  double u[3], v[3];   /* full edge vectors, perpendicular */
+  double normal[3];    /* unit; never derived from u x v */
+  double st_window[4]; /* s0, s1, t0, t1: slopes as seen from center */
+  double st_distance;  /* of the st plane along the normal; INFINITY allowed */
   double metres_per_unit;
   char radiance_unit[SLAB_UNIT_SIZE]; /* "W/(sr m2)", "cd/m2" or "relative" */
   char *json; /* the page's whole JSON text, with keys that only others know, or
@@ -74,13 +74,12 @@ double slab_position(const struct slab *slab, int axis, int index);
 double slab_spacing(const struct slab *slab, int axis);
 
 /* Radiance of the ray through (a, b, s, t): quadrilinear, zero outside. */
-void slab_lookup(const struct slab *slab, double a, double b, double s, double t,
-                 double rgb[3]);
+void slab_lookup(const struct slab *slab, double a, double b, double s, double t, double rgb[3]);
 
 /* The (a, b, s, t) of a ray in lamp space. False where it does not leave
  * through the slab's side of the uv plane (direction . normal <= 0). */
-bool slab_ray(const struct slab *slab, const double origin[3],
-              const double direction[3], double abst[4]);
+bool slab_ray(const struct slab *slab, const double origin[3], const double direction[3],
+              double abst[4]);
 
 /* Radiant flux leaving through the page: the integral of the interpolated
  * radiance times cosine over aperture and window (slab_flux.c). */

@@ -14,10 +14,10 @@ extern "C" {
 
 enum slab_result {
   SLAB_OK = 0,
-  SLAB_BAD,     /* refused: the content of a file or an argument is wrong */
-  SLAB_IO,      /* the operating system, or a program we ran, failed */
-  SLAB_MEMORY,  /* out of memory */
-  SLAB_STOPPED  /* interrupted by the user; what was finished is kept */
+  SLAB_BAD,    /* refused: the content of a file or an argument is wrong */
+  SLAB_IO,     /* the operating system, or a program we ran, failed */
+  SLAB_MEMORY, /* out of memory */
+  SLAB_STOPPED /* interrupted by the user; what was finished is kept */
 };
 
 struct slab_error {
@@ -26,9 +26,8 @@ struct slab_error {
 
 /* Formats the message and returns `result`, so that a caller can write
  * `return slab_fail(error, SLAB_BAD, "%s: ...", path);`. */
-enum slab_result slab_fail(struct slab_error *error, enum slab_result result,
-                           const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+enum slab_result slab_fail(struct slab_error *error, enum slab_result result, const char *format,
+                           ...) __attribute__((format(printf, 3, 4)));
 
 #ifdef __cplusplus
 }

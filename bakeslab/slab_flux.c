@@ -147,8 +147,8 @@ static bool make_rules(const struct slab *slab, int axis, int positions, struct 
   for (int i = 0; i < positions && ok; ++i)
     for (int k = 0; k < slopes && ok; ++k) {
       build_rule(slab, axis, i, k, rule);
-      if (used + (size_t)rule->count > room) {
-        room = 2 * (used + (size_t)rule->count);
+      if (!rules->x || used + (size_t)rule->count > room) {
+        room = 2 * (used + (size_t)rule->count) + 1;
         double *x = realloc(rules->x, room * sizeof *x);
         if (x) rules->x = x;
         double *w = realloc(rules->w, room * sizeof *w);

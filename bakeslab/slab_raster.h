@@ -22,10 +22,12 @@ static inline size_t slab_raster_block_pixels(const struct slab_raster *raster) 
 }
 
 static inline int slab_raster_columns(const struct slab_raster *raster) {
+  if (raster->block_width < 1) return 1; /* scan lines */
   return raster->width / raster->block_width + (raster->width % raster->block_width != 0);
 }
 
 static inline int slab_raster_rows(const struct slab_raster *raster) {
+  if (raster->block_height < 1) return raster->height;
   return raster->height / raster->block_height + (raster->height % raster->block_height != 0);
 }
 

@@ -172,8 +172,9 @@ enum slab_result slab_tiff_open(int fd, const char *path, struct slab_tiff **out
   *out = NULL;
   struct slab_tiff *tiff = calloc(1, sizeof *tiff);
   if (!tiff || !(tiff->path = strdup(path))) {
-    result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
-    goto out;
+    free(tiff);
+    close(fd);
+    return slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
   }
   if (fstat(fd, &status) == 0) tiff->bytes = (uint64_t)status.st_size;
   tiff->tif = open_tiff(fd, tiff);
@@ -201,7 +202,7 @@ out:
   if (result == SLAB_OK) {
     *out = tiff;
   } else {
-    if (!tiff || !tiff->tif) close(fd);
+    if (!tiff->tif) close(fd);
     slab_tiff_close(tiff);
   }
   return result;

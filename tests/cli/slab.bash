@@ -6,7 +6,7 @@ raw_slab() {
   local file=$1 samples=$2 width=$3 height=$4 more=$5
   shift 5
   local text="{\"format\": \"light-slab\", \"version\": 1, \"samples\": $samples, \"center\": [0, 0, 0], \"u\": [0.2, 0, 0], \"v\": [0, 0, 0.2], \"normal\": [0, -1, 0], \"st_window\": [-1, 1, -1, 1]$more}"
-  local values=$((3 * width * height)) entries=11 hex k
+  local values=$((3 * width * height)) entries=11 hex
   local directory=8 length=$((${#text} + 1))
   local after=$((directory + 2 + 12 * entries + 4))
   local pixels=$((after + length + 12))
@@ -26,17 +26,17 @@ raw_slab() {
   one=$data
   while [ ${#data} -lt $((8 * values)) ]; do data+=$one; done
   hex+=${data:0:$((8 * values))}
-  # shellcheck disable=SC2001
+  # shellcheck disable=SC2059 # the bytes are the format
   printf "$(printf '%s' "$hex" | sed 's/../\\x&/g')" >"$file"
 }
 
 # The last command failed with one line on stderr that says all of the pieces.
 # Use with: run --separate-stderr
+# shellcheck disable=SC2154 # status and stderr are set by run
 refused() {
   local status_wanted=$1 piece
   shift
   [ "$status" -eq "$status_wanted" ] || { echo "status $status"; return 1; }
-  # shellcheck disable=SC2154
   [ "${#stderr_lines[@]}" -eq 1 ] || { echo "not one line: $stderr"; return 1; }
   for piece in "bakeslab: " "$@"; do
     [[ $stderr == *"$piece"* ]] || { echo "'$stderr' does not say '$piece'"; return 1; }

@@ -5,7 +5,7 @@ bats_require_minimum_version 1.5.0
 load slab
 
 setup() {
-  cd "$BATS_TEST_TMPDIR"
+  cd "$BATS_TEST_TMPDIR" || return
   # 2 x 1 views of 2 x 2: red ramps 1 2 3 4 along the raster's row, green 0.5, blue 0
   raw_slab a.tif '[2, 1, 2, 2]' 4 2 ', "name": "ramp", "x-key": [7]' \
     3f800000 3f000000 00000000  40000000 3f000000 00000000 \
@@ -24,7 +24,7 @@ setup() {
 
 @test "info --json: a constant slab has Lambert's flux" {
   # radiance 1: 0.04 * 4 corner(1,1), corner = atan(1/sqrt 2)/sqrt 2 = 0.435209...
-  raw_slab one.tif '[1, 1, 1, 1]' 1 1 ', "metres_per_unit": 0.5, "radiance_unit": "W/(sr m2)"' $one $one $one
+  raw_slab one.tif '[1, 1, 1, 1]' 1 1 ', "metres_per_unit": 0.5, "radiance_unit": "W/(sr m2)"' "$one" "$one" "$one"
   run --separate-stderr "$BAKESLAB" info --json one.tif
   [ "$status" -eq 0 ]
   flux=$(tr -d ' \n' <<<"$output" | sed 's/.*"flux":\[\([0-9.e-]*\),.*/\1/')
@@ -111,7 +111,7 @@ $line"
   raw_slab neg.tif '[1, 1, 1, 1]' 1 1 '' bf800000 bf800000 bf800000
   run --separate-stderr "$BAKESLAB" convert neg.tif -o out.tif
   refused 1 "out.tif: page 1: sample (0, 0, 0, 0)" "--precision float"
-  raw_slab big.tif '[1, 1, 1, 1]' 1 1 '' 47c35000 $one $one
+  raw_slab big.tif '[1, 1, 1, 1]' 1 1 '' 47c35000 "$one" "$one"
   run --separate-stderr "$BAKESLAB" convert big.tif -o out.exr --precision half
   refused 1 "out.exr: page 1" "--precision float"
   [ -z "$(ls out* 2>/dev/null)" ]
@@ -148,9 +148,9 @@ $line"
 }
 
 @test "bad files: one line with file, page and reason, by every command" {
-  raw_slab nan.tif '[2, 1, 2, 2]' 4 2 '' $one $one $one $one 7fc00000 $one
-  raw_slab wrong.tif '[2, 1, 2, 3]' 4 2 '' $one
-  raw_slab new.tif '[2, 1, 2, 2]' 4 2 ', "version": 2' $one
+  raw_slab nan.tif '[2, 1, 2, 2]' 4 2 '' "$one" "$one" "$one" "$one" 7fc00000 "$one"
+  raw_slab wrong.tif '[2, 1, 2, 3]' 4 2 '' "$one"
+  raw_slab new.tif '[2, 1, 2, 2]' 4 2 ', "version": 2' "$one"
   head -c 300 a.tif >cut.tif
   head -c -1 a.tif >short.tif
   : >empty.tif
