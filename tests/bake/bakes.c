@@ -35,6 +35,7 @@ int bakes_setup(void **state) {
   fixtures = files_join(dirname(copy), "tests/bake/lamps");
   free(copy);
   snprintf(directory, sizeof directory, "%s/bake-test-XXXXXX", parent ? parent : "/tmp");
+  setenv("FIXTURES", fixtures, 1);
   return mkdtemp(directory) ? 0 : -1;
 }
 
@@ -208,10 +209,11 @@ static void wait_for(int most) {
 void bakes_start(const char *lamp, const char *output, const char *options) {
   wait_for(AT_ONCE - 1);
   char *command = NULL;
-  assert_true(asprintf(&command,
-                       "cd '%s' && exec \"$BAKESLAB\" bake %s.pov -o %s -L '%s' --jobs 1 %s "
-                       ">%s.log 2>&1",
-                       directory, lamp, output, fixtures, options, output) > 0);
+  assert_true(
+      asprintf(&command,
+               "cd '%s' && exec \"$BAKESLAB\" bake %s.pov -o %s -L \"$FIXTURES\" --jobs 1 %s "
+               ">%s.log 2>&1",
+               directory, lamp, output, options, output) > 0);
   pid_t pid = fork();
   assert_true(pid >= 0);
   if (pid == 0) {

@@ -21,7 +21,8 @@ int bakes_teardown(void **state);
 /* Path of a file there; valid until the next 8 calls. */
 const char *bakes_path(const char *name);
 
-/* Runs a shell command there, `$BAKESLAB` being the program. Returns its exit status. */
+/* Runs a shell command there, `$BAKESLAB` being the program and `$FIXTURES`
+ * the folder of known.inc. Returns its exit status. */
 int bakes_run(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* ---- Lamps ---- */
