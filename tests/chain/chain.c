@@ -126,8 +126,41 @@ static void view(const struct slab *slab, int i, int j, double s, double t, doub
       rgb[c] += ws[m & 1] * wt[m >> 1] * chain_sample(slab, i, j, k[m & 1], l[m >> 1])[c];
 }
 
-static void add_page(const struct chain_lamp *lamp, const struct slab *slab, const double at[3],
-                     const double normal[3], double rgb[3]) {
+/* Does the lamp's box stand on the straight way between two points? */
+static int shades(const struct chain_lamp *lamp, const double from[3], const double to[3]) {
+  if (lamp->case_height <= 0) return 0;
+  const struct slab *slab = &lamp->pages[0];
+  const double *axes[3] = {slab->u, slab->v, slab->normal};
+  double enter = 0, leave = 1, middle[3], relative[3], way[3];
+  turn(lamp, slab->center, middle);
+  for (int c = 0; c < 3; ++c) {
+    relative[c] = from[c] - lamp->scale * middle[c] - lamp->matrix[9 + c];
+    way[c] = to[c] - from[c];
+  }
+  for (int k = 0; k < 3; ++k) {
+    double axis[3], size = chain_length(axes[k]) * lamp->scale;
+    turn(lamp, axes[k], axis);
+    double start = chain_dot(relative, axis) * lamp->scale / size;
+    double step = chain_dot(way, axis) * lamp->scale / size;
+    double low = k < 2 ? -size / 2 : 0, high = k < 2 ? size / 2 : lamp->case_height * lamp->scale;
+    double first = (low - start) / step, last = (high - start) / step;
+    enter = fmax(enter, fmin(first, last));
+    leave = fmin(leave, fmax(first, last));
+  }
+  return enter < leave;
+}
+
+/* Lamps other than the one that shines shade it. */
+static int shaded(const struct chain_lamp *lamps, int count, const struct chain_lamp *lamp,
+                  const double from[3], const double to[3]) {
+  for (int k = 0; k < count; ++k)
+    if (&lamps[k] != lamp && shades(&lamps[k], from, to)) return 1;
+  return 0;
+}
+
+static void add_page(const struct chain_lamp *lamps, int count, const struct chain_lamp *lamp,
+                     const struct slab *slab, const double at[3], const double normal[3],
+                     double rgb[3]) {
   double n[3], u[3], v[3], lu = chain_length(slab->u), lv = chain_length(slab->v);
   turn(lamp, slab->normal, n);
   turn(lamp, slab->u, u);
@@ -140,9 +173,12 @@ static void add_page(const struct chain_lamp *lamp, const struct slab *slab, con
       for (int c = 0; c < 3; ++c)
         place[c] = slab->center[c] + a * slab->u[c] / lu + b * slab->v[c] / lv;
       turn(lamp, place, away);
-      for (int c = 0; c < 3; ++c) away[c] = at[c] - (lamp->scale * away[c] + lamp->matrix[9 + c]);
+      for (int c = 0; c < 3; ++c) {
+        place[c] = lamp->scale * away[c] + lamp->matrix[9 + c];
+        away[c] = at[c] - place[c];
+      }
       double height = chain_dot(away, n), facing = -chain_dot(away, normal);
-      if (height <= 0 || facing <= 0) continue;
+      if (height <= 0 || facing <= 0 || shaded(lamps, count, lamp, place, at)) continue;
       view(slab, i, j, chain_dot(away, u) / lu / height + a / slab->st_distance,
            chain_dot(away, v) / lv / height + b / slab->st_distance, radiance);
       double r2 = chain_dot(away, away);
@@ -190,7 +226,7 @@ void chain_direct(const struct chain_lamp *lamps, int count, const struct chain_
       pixel(plane, x, y, at);
       for (int k = 0; k < count; ++k)
         for (int p = 0; p < lamps[k].count; ++p)
-          add_page(&lamps[k], &lamps[k].pages[p], at, plane->normal, sum);
+          add_page(lamps, count, &lamps[k], &lamps[k].pages[p], at, plane->normal, sum);
       for (int c = 0; c < 3; ++c) rgb[3 * (y * CHAIN_SIZE + x) + c] = sum[c] / M_PI;
     }
 }

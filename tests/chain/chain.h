@@ -48,6 +48,8 @@ struct chain_lamp {
   int count;
   double scale, gain;
   double matrix[12];
+  double case_height; /* above 0: an opaque box of this height (lamp units) stands on
+                         the first page's aperture and shades other lamps' light */
 };
 
 extern const double chain_identity[12];

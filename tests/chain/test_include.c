@@ -16,7 +16,7 @@ static struct slab rough_slab(void) {
 }
 
 static struct chain_lamp lamp_of(const struct slab *slab, double scale) {
-  struct chain_lamp lamp = {slab, 1, scale, 1, {0}};
+  struct chain_lamp lamp = {slab, 1, scale, 1, {0}, 0};
   memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
   return lamp;
 }
@@ -206,7 +206,8 @@ static void test_unseen(void **state) {
                 "itself");
   expect_unseen("global_settings { assumed_gamma 1 } background { rgb <1, 2, 3> }\n"
                 "camera { location -3*z look_at 0 }\n"
-                "sphere { 0.2*z, 4 inverse finish { reflection 0.7 diffuse 0 ambient 0.1 } }",
+                "sphere { 0.2*z, 4 inverse pigment { rgb <1, 2, 3> }\n"
+                "  finish { reflection 0.7 diffuse 0 ambient 0.1 } }",
                 "in a mirror");
   expect_unseen("global_settings { assumed_gamma 1 radiosity { count 100 recursion_limit 1 } }\n"
                 "background { rgb 1 } camera { location <0, 3, -3> look_at 0 }\n"

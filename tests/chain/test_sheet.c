@@ -62,6 +62,12 @@ static void place(const struct chain_lamp *lamp, char *sdl, size_t size) {
                                k < 11 ? ", " : "> }\n");
 }
 
+/* Includes "lamp.inc" and places the lamps. */
+static void include_lamps(const struct chain_lamp *lamps, int count, char *sdl, size_t size) {
+  snprintf(sdl, size, "#include \"lamp.inc\"\n");
+  for (int k = 0; k < count; ++k) place(&lamps[k], sdl + strlen(sdl), size - strlen(sdl));
+}
+
 /* Renders the lamps onto the plane and holds the picture against the sum. */
 static void compare(const char *what, const struct chain_lamp *lamps, int count,
                     const struct chain_plane *plane, const char *sdl) {
@@ -79,11 +85,11 @@ static void compare(const char *what, const struct chain_lamp *lamps, int count,
 static void compare_setting(const struct setting *setting, uint64_t seed) {
   struct slab slab = chain_slab(setting->samples, setting->edges, setting->window,
                                 setting->st_distance, setting->mirrored, seed);
-  struct chain_lamp lamp = {&slab, 1, setting->scale, setting->gain, {0}};
+  struct chain_lamp lamp = {&slab, 1, setting->scale, setting->gain, {0}, 0};
   memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
   struct chain_plane plane = chain_facing(&lamp, 0, setting->distance);
-  char sdl[1024] = "#include \"lamp.inc\"\n";
-  place(&lamp, sdl + strlen(sdl), sizeof sdl - strlen(sdl));
+  char sdl[1024];
+  include_lamps(&lamp, 1, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
   compare(setting->what, &lamp, 1, &plane, sdl);
   slab_free(&slab);
@@ -120,7 +126,7 @@ static void test_words(void **state) {
   };
   chain_include(&slab, 1, "lamp", "");
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
-    struct chain_lamp lamp = {&slab, 1, 1, 1, {0}};
+    struct chain_lamp lamp = {&slab, 1, 1, 1, {0}, 0};
     memcpy(lamp.matrix, cases[k].matrix, sizeof lamp.matrix);
     struct chain_plane plane = chain_facing(&lamp, 0, 1.5);
     char sdl[256];
@@ -131,18 +137,16 @@ static void test_words(void **state) {
   slab_free(&slab);
 }
 
-/* Two lamps, one behind the other, each of which would be filtered by the other
- * one's sheet if there were no case. */
+/* Two lamps side by side, also as copies of one declared object. */
 static void test_instances(void **state) {
   (void)state;
   struct slab slab = small_slab(2, 2);
-  struct chain_lamp lamps[2] = {{&slab, 1, 1, 1, {0}}, {&slab, 1, 1, 0.5, {0}}};
+  struct chain_lamp lamps[2] = {{&slab, 1, 1, 1, {0}, 0}, {&slab, 1, 1, 0.5, {0}, 0}};
   for (int k = 0; k < 2; ++k) memcpy(lamps[k].matrix, chain_identity, sizeof lamps[k].matrix);
-  for (int c = 0; c < 3; ++c)
-    lamps[1].matrix[9 + c] = 1.1 * slab.u[c] + 0.4 * slab.v[c] - 0.03 * slab.normal[c];
+  for (int c = 0; c < 3; ++c) lamps[1].matrix[9 + c] = 1.1 * slab.u[c] + 0.4 * slab.v[c];
   struct chain_plane plane = chain_facing(&lamps[0], 0, 1);
-  char sdl[2048] = "#include \"lamp.inc\"\n";
-  for (int k = 0; k < 2; ++k) place(&lamps[k], sdl + strlen(sdl), sizeof sdl - strlen(sdl));
+  char sdl[2048];
+  include_lamps(lamps, 2, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
   compare("two instances", lamps, 2, &plane, sdl);
   snprintf(sdl, sizeof sdl,
@@ -154,14 +158,38 @@ static void test_instances(void **state) {
   slab_free(&slab);
 }
 
+/* A lamp behind another, then one that looks into its side: the front lamp's
+ * case, not its sheet, is what their light meets. */
+static void test_case(void **state) {
+  (void)state;
+  const int samples[4] = {3, 3, 8, 8};
+  const double edges[2] = {1, 1}, window[4] = {-1, 1, -1, 1};
+  struct slab slab = chain_slab(samples, edges, window, INFINITY, 0, 8);
+  double height = (1.0 / 3) / (2.0 / 8 * (8 + 2)); /* tiles of 10 x 10 texels meet there */
+  struct chain_lamp lamps[2] = {{&slab, 1, 1, 1, {0}, height}, {&slab, 1, 1, 1, {0}, 0}};
+  const double away[2][3] = {{0.1, 0.2, -0.8}, {1.2, 0.1, -0.3}};
+  for (int k = 0; k < 2; ++k) memcpy(lamps[k].matrix, chain_identity, sizeof lamps[k].matrix);
+  struct chain_plane plane = chain_facing(&lamps[0], 0, 1);
+  char sdl[2048];
+  chain_include(&slab, 1, "lamp", "");
+  for (int k = 0; k < 2; ++k) {
+    for (int c = 0; c < 3; ++c)
+      lamps[1].matrix[9 + c] =
+          away[k][0] * slab.u[c] + away[k][1] * slab.v[c] + away[k][2] * slab.normal[c];
+    include_lamps(lamps, 2, sdl, sizeof sdl);
+    compare(k ? "a lamp beside and behind" : "a lamp behind", lamps, 2, &plane, sdl);
+  }
+  slab_free(&slab);
+}
+
 /* Two pages of one lamp in one aperture plane, back to back, then side by side. */
 static void test_pages(void **state) {
   (void)state;
   struct slab pages[2] = {small_slab(INFINITY, 3), small_slab(3, 4)};
-  struct chain_lamp lamp = {pages, 2, 0.8, 1, {0}};
+  struct chain_lamp lamp = {pages, 2, 0.8, 1, {0}, 0};
   memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
-  char sdl[1024] = "#include \"lamp.inc\"\n";
-  place(&lamp, sdl + strlen(sdl), sizeof sdl - strlen(sdl));
+  char sdl[1024];
+  include_lamps(&lamp, 1, sdl, sizeof sdl);
   for (int c = 0; c < 3; ++c) {
     pages[1].center[c] = pages[0].center[c];
     pages[1].u[c] = pages[0].u[c];
@@ -200,7 +228,7 @@ static void test_lights(void **state) {
   struct slab slab = chain_slab(samples, small_edges, small_window, 2, 0, 5);
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     struct slab means = chain_means(&slab, cases[k].lights[0], cases[k].lights[1]);
-    struct chain_lamp lamp = {&means, 1, 1, 1, {0}};
+    struct chain_lamp lamp = {&means, 1, 1, 1, {0}, 0};
     memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
     struct chain_plane plane = chain_facing(&lamp, 0, 1);
     char sdl[1024];
@@ -222,11 +250,11 @@ static void test_black_views(void **state) {
       for (int l = 0; l < slab.samples[3]; ++l)
         for (int k = 0; k < slab.samples[2]; ++k)
           memset(chain_sample(&slab, i, j, k, l), 0, 3 * sizeof(float));
-  struct chain_lamp lamp = {&slab, 1, 1, 1, {0}};
+  struct chain_lamp lamp = {&slab, 1, 1, 1, {0}, 0};
   memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
-  char sdl[1024] = "#include \"lamp.inc\"\n";
-  place(&lamp, sdl + strlen(sdl), sizeof sdl - strlen(sdl));
+  char sdl[1024];
+  include_lamps(&lamp, 1, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
   assert_int_equal(chain_run("grep -q '4x3 *4 of 12' lamp.inc"), 0);
   compare("black views", &lamp, 1, &plane, sdl);
@@ -235,9 +263,10 @@ static void test_black_views(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_settings),  cmocka_unit_test(test_words),
-      cmocka_unit_test(test_instances), cmocka_unit_test(test_pages),
-      cmocka_unit_test(test_lights),    cmocka_unit_test(test_black_views),
+      cmocka_unit_test(test_settings),    cmocka_unit_test(test_words),
+      cmocka_unit_test(test_instances),   cmocka_unit_test(test_case),
+      cmocka_unit_test(test_pages),       cmocka_unit_test(test_lights),
+      cmocka_unit_test(test_black_views),
   };
   return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
 }
