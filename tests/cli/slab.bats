@@ -172,6 +172,9 @@ $line"
     done
   done
   [ ! -e out.exr ]
+  # before any sample is asked for
+  run --separate-stderr "$BAKESLAB" lookup short.tif </dev/null
+  refused 1 "short.tif: page 1: is truncated"
 }
 
 @test "usage errors exit 2 and say what is wrong" {

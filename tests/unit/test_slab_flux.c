@@ -195,7 +195,7 @@ static void test_enlargement(void **state) {
 static void test_crop(void **state) {
   (void)state;
   static const double distances[] = {INFINITY, 0.3};
-  const int first[4] = {1, 0, 2, 1}, end[4] = {4, 2, 7, 3};
+  const int first[4] = {2, 1, 2, 1}, end[4] = {5, 2, 7, 3}; /* off-centre in u and v */
   for (int d = 0; d < 2; ++d) {
     struct slab slab = awkward_slab((const int[]){5, 2, 8, 4}, distances[d]), part = {0};
     struct slab_error error = {{0}};

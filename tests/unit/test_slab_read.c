@@ -204,6 +204,7 @@ static void test_refused_descriptions(void **state) {
   refuse_text(DESCRIPTION(V1, S, F, W ", \"samples_are\": \"good\""), "samples_are");
   refuse_text(DESCRIPTION(V1, S, F, W ", \"name\": 7"), "\"name\" must be");
   refuse_text(DESCRIPTION(V1, S, F, W ", \"logluv_white\": [1, 0, 1]"), "logluv_white");
+  refuse_text(DESCRIPTION(V1, S, F, W ", \"logluv_white\": [1, -1, 1]"), "logluv_white");
   refuse_text(DESCRIPTION(V1, S, F, W ", \"name\": \"a\", \"name\": \"b\""), "malformed JSON");
 }
 
