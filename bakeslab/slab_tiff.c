@@ -210,7 +210,7 @@ out:
 
 void slab_tiff_close(struct slab_tiff *tiff) {
   if (!tiff) return;
-  for (int page = 0; page < tiff->count; ++page) free(tiff->pages[page].raster.text);
+  for (int page = 0; tiff->pages && page < tiff->count; ++page) free(tiff->pages[page].raster.text);
   if (tiff->tif) TIFFClose(tiff->tif); /* closes the descriptor too */
   free(tiff->pages);
   free(tiff->path);
