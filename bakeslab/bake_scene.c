@@ -14,14 +14,6 @@ static const struct bake_box *unit_box(const struct bake_round *round, size_t un
   return &round->boxes[round->units[unit].box];
 }
 
-static void unit_camera(const struct bake_look *look, const struct slab *slabs,
-                        const struct bake_round *round, size_t unit, struct bake_camera *camera) {
-  double offset[SLAB_AXES];
-  const struct bake_box *box = unit_box(round, unit);
-  bake_offset(round->units[unit].pass, look->centre, offset);
-  bake_camera(&slabs[box->page], box, offset, camera);
-}
-
 static void print_vector(FILE *out, const double vector[3], double factor) {
   fprintf(out, "<%.17g,%.17g,%.17g>", factor * vector[0], factor * vector[1], factor * vector[2]);
 }
@@ -31,10 +23,20 @@ static void print_vector(FILE *out, const double vector[3], double factor) {
 /* The whole picture brightened: every camera looks at the lamp through a filter that
  * multiplies radiance. It lies just outside each uv plane, and the cameras just outside
  * of it, so that nothing in the lamp can touch it. Only cameras see it, and only from
- * outside: rays that leave an open lamp through another slab are multiplied already. */
-static double filter_distance(const struct slab *slab) {
-  double length = sqrt(slab->u[0] * slab->u[0] + slab->u[1] * slab->u[1] + slab->u[2] * slab->u[2]);
-  return 2e-5 * fmax(1, length);
+ * outside: rays that leave an open lamp through another slab are multiplied already.
+ * POV-Ray ignores what is nearer to a camera than 1e-4, its MIN_ISECT_DEPTH. */
+static double camera_distance(const struct slab *slab) {
+  double length = slab_spacing(slab, SLAB_U) * slab->samples[SLAB_U];
+  return 2e-5 * fmax(10, length);
+}
+static const double filter_part = 0.2; /* of that distance */
+
+/* Half an edge of the filter, so that every ray of a camera behind it passes. */
+static double filter_reach(const struct slab *slab, int axis) {
+  double length = slab_spacing(slab, axis) * slab->samples[axis];
+  const double *window = slab->st_window + 2 * axis;
+  double slope = fmax(fabs(window[0]), fabs(window[1])) + 0.5 * slab_kappa(slab) * length;
+  return 0.51 * length + 2 * camera_distance(slab) * slope;
 }
 
 /* Whether u x v points against the normal. */
@@ -52,13 +54,16 @@ static void print_filter(FILE *out, double gain, const struct slab *slab) {
   static const double at[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
   const char *sides[2] = {"texture", "interior_texture"};
   bool mirrored = is_mirrored(slab);
+  double reach[2];
+  for (int axis = SLAB_U; axis <= SLAB_V; ++axis)
+    reach[axis] = filter_reach(slab, axis) / (slab_spacing(slab, axis) * slab->samples[axis]);
   fputs("polygon { 5, ", out);
   for (int c = 0; c < 5; ++c) {
     double corner[3];
     for (int axis = 0; axis < 3; ++axis)
-      corner[axis] = slab->center[axis] +
-                     0.51 * (at[c][0] * slab->u[axis] + at[c][1] * slab->v[axis]) +
-                     0.5 * filter_distance(slab) * slab->normal[axis];
+      corner[axis] = slab->center[axis] + at[c][0] * reach[0] * slab->u[axis] +
+                     at[c][1] * reach[1] * slab->v[axis] +
+                     filter_part * camera_distance(slab) * slab->normal[axis];
     print_vector(out, corner, 1);
   }
   for (int side = 0; side < 2; ++side)
@@ -73,7 +78,7 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
           "// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version "
           "3.7;\n#declare Canned_Bake_Effects = \"%s\";\n",
           look->effects);
-  if (look->interreflection) /* radiosity's pretrace: finer than 16 pixels costs much and gains 0.01 % */
+  if (look->interreflection) /* a pretrace finer than 16 pixels costs much and gains 0.01 % */
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
             job->height > job->width ? job->height : job->width);
   fputs("#include \"canned_bake.inc\"\n#include \"lamp.pov\"\n", out);
@@ -85,13 +90,21 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
 
 /* ---- Cameras ---- */
 
-static void print_matrix(FILE *out, const struct bake_look *look, const struct slab *slab,
-                         const struct bake_camera *camera) {
+static void unit_camera(const struct bake_look *look, const struct slab *slabs,
+                        const struct bake_round *round, size_t unit, struct bake_camera *camera) {
+  double offset[SLAB_AXES];
+  const struct bake_box *box = unit_box(round, unit);
+  bake_offset(round->units[unit].pass, look->centre, offset);
+  const struct slab *slab = &slabs[box->page];
+  bake_camera(slab, box, offset, camera);
+  if (look->gain != 1) /* backwards along its middle ray */
+    for (int axis = 0; axis < 3; ++axis)
+      camera->origin[axis] += camera_distance(slab) * camera->toward[axis];
+}
+
+static void print_matrix(FILE *out, const struct slab *slab, const struct bake_camera *camera) {
   double rows[4][3];
   bake_camera_matrix(slab, camera, rows);
-  if (look->gain != 1)
-    for (int axis = 0; axis < 3; ++axis)
-      rows[3][axis] += filter_distance(slab) * slab->normal[axis];
   fputs("matrix <", out);
   for (int n = 0; n < 12; ++n) fprintf(out, "%s%.17g", n ? "," : "", rows[n / 3][n % 3]);
   fputs("> }\n", out);
@@ -113,7 +126,7 @@ static void print_mesh_camera(FILE *out, const struct bake_look *look, const str
     struct bake_camera camera;
     unit_camera(look, slabs, round, batch->first + n, &camera);
     fprintf(out, "mesh { D%dx%d ", camera.width, camera.height);
-    print_matrix(out, look, &slabs[unit_box(round, batch->first + n)->page], &camera);
+    print_matrix(out, &slabs[unit_box(round, batch->first + n)->page], &camera);
   }
   fputs("} location 0 direction z }\n", out);
 }
@@ -126,10 +139,6 @@ static void print_animation(FILE *out, const struct bake_look *look, const struc
   for (size_t n = 0; n < batch->count; ++n) {
     struct bake_camera camera;
     unit_camera(look, slabs, round, batch->first + n, &camera);
-    const struct slab *slab = &slabs[unit_box(round, batch->first + n)->page];
-    if (look->gain != 1)
-      for (int axis = 0; axis < 3; ++axis)
-        camera.origin[axis] += filter_distance(slab) * slab->normal[axis];
     /* Directions are -(toward + across + down); positions are origin + across + down. */
     double sign = camera.orthographic ? 1 : -1;
     fprintf(out, "#case (%zu) camera { %s location ", n + 1,

@@ -45,10 +45,10 @@ static int bake_all(void **state) {
   bakes_start("pane", "points.exr", "--uv 4x4 --st 10x10 --centre");
   bakes_lamp("slope");
   bakes_lamp_slab("slope", &frame);
-  bakes_lamp_macro("slope", "Slope", &frame, "1.5");
+  bakes_lamp_macro("slope", "Slope", &frame, "1.5, 1");
   bakes_lamp("nearby");
   bakes_lamp_slab("nearby", &nearby);
-  bakes_lamp_macro("nearby", "Slope", &nearby, "1.5");
+  bakes_lamp_macro("nearby", "Slope", &nearby, "1.5, 1");
   bakes_start("slope", "slope2.exr", "--uv 2x3 --st 5x4 --rays 2");
   bakes_start("slope", "slope6.exr", "--uv 2x3 --st 5x4 --rays 6");
   bakes_start("slope", "slope16.exr", "--uv 2x3 --st 5x4 --rays 16");
