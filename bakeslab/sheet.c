@@ -14,6 +14,10 @@ const double sheet_gate = 0.05, sheet_least_height = 0.0011;
 /* POV-Ray takes light colours up to here. */
 static const double largest_colour = 1e37;
 
+double sheet_edge(const struct slab *slab, int axis) {
+  return slab_spacing(slab, axis) * slab->samples[axis];
+}
+
 static const float *sample(const struct slab *slab, size_t index) {
   return slab->rgb + 3 * index;
 }
@@ -89,7 +93,7 @@ static enum slab_result check_colour(const struct sheet_level *level, int page,
                                      struct slab_error *error) {
   const struct slab *views = &level->views;
   double du = slab_spacing(views, SLAB_U), dv = slab_spacing(views, SLAB_V);
-  double fade = 1e-3 * fmax(du * views->samples[SLAB_U], dv * views->samples[SLAB_V]);
+  double fade = 1e-3 * fmax(sheet_edge(views, SLAB_U), sheet_edge(views, SLAB_V));
   double colour = level->peak * (du / fade) * (dv / fade) / (2 * M_PI);
   if (colour <= largest_colour) return SLAB_OK;
   return slab_fail(error, SLAB_BAD,

@@ -78,6 +78,9 @@ enum slab_result sheet_make(const struct slab *slabs, int count, int lights, str
                             struct slab_error *error);
 void sheet_free(struct sheet *sheet);
 
+/* Length of the aperture's edge along SLAB_U or SLAB_V. */
+double sheet_edge(const struct slab *slab, int axis);
+
 /* sheet_image.c: places the levels' tiles and paints them. */
 enum slab_result sheet_paint(struct sheet *sheet, struct slab_error *error);
 

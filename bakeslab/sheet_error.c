@@ -19,10 +19,6 @@ struct plane {
   int points[2]; /* of the dense sum, along u and v */
 };
 
-static double edge(const struct slab *slab, int axis) {
-  return slab_spacing(slab, axis) * slab->samples[axis];
-}
-
 /* Points of the dense sum along an axis of the aperture: several in each cell,
  * and close enough for two in each sample of s or t that a receiver sees. A
  * multiple of twice the cells, so that the kinks of the interpolant, on cell
@@ -30,7 +26,7 @@ static double edge(const struct slab *slab, int axis) {
 static int quadrature_points(const struct slab *slab, int axis, double distance) {
   int cells = slab->samples[axis];
   double step = distance * slab_spacing(slab, axis == SLAB_U ? SLAB_S : SLAB_T) / 2;
-  double wanted = fmin(fmax(edge(slab, axis) / step, LEAST_POINTS), MOST_POINTS);
+  double wanted = fmin(fmax(sheet_edge(slab, axis) / step, LEAST_POINTS), MOST_POINTS);
   int half = (int)ceil(wanted / (2 * cells));
   return 2 * cells * (cells < MOST_POINTS / 4 && half < 2 ? 2 : half);
 }
@@ -40,7 +36,7 @@ static int quadrature_points(const struct slab *slab, int axis, double distance)
 static void irradiance(const struct slab *slab, const int points[2], const double at[2],
                        double distance, double rgb[3]) {
   double kappa = slab_kappa(slab);
-  double du = edge(slab, SLAB_U) / points[0], dv = edge(slab, SLAB_V) / points[1];
+  double du = sheet_edge(slab, SLAB_U) / points[0], dv = sheet_edge(slab, SLAB_V) / points[1];
   rgb[0] = rgb[1] = rgb[2] = 0;
   for (int j = 0; j < points[1]; ++j) {
     double b = (j + 0.5 - 0.5 * points[1]) * dv, y = at[1] - b;
@@ -62,7 +58,7 @@ static struct plane make_plane(const struct slab *slab, double distance) {
   double spread = fabs(1 - slab_kappa(slab) * plane.distance);
   for (int k = 0; k < 2; ++k) {
     const double *window = slab->st_window + 2 * k;
-    double aperture = spread * edge(slab, k ? SLAB_V : SLAB_U);
+    double aperture = spread * sheet_edge(slab, k ? SLAB_V : SLAB_U);
     plane.low[k] = plane.distance * window[0] - aperture / 2;
     plane.size[k] = plane.distance * (window[1] - window[0]) + aperture;
   }
@@ -89,7 +85,7 @@ enum slab_result sheet_measure(const struct slab *slab, struct sheet_level *leve
                                struct slab_error *error) {
   double *squares = calloc((size_t)count + 1, sizeof *squares);
   if (!squares) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  double width = fmax(edge(slab, SLAB_U), edge(slab, SLAB_V));
+  double width = fmax(sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V));
   for (int d = 0; d < SHEET_DISTANCES; ++d) {
     struct plane plane = make_plane(slab, sheet_distances[d] * width);
     for (int k = 0; k <= count; ++k) squares[k] = 0;

@@ -36,10 +36,6 @@ static void print_comment(const char *text, FILE *out) {
   for (; *text; ++text) putc((unsigned char)*text < ' ' ? '?' : *text, out);
 }
 
-static double edge(const struct slab *slab, int axis) {
-  return slab_spacing(slab, axis) * slab->samples[axis];
-}
-
 static const char *flux_unit(const struct slab *slab) {
   if (!strcmp(slab->radiance_unit, "W/(sr m2)")) return "W";
   if (!strcmp(slab->radiance_unit, "cd/m2")) return "lm";
@@ -115,7 +111,7 @@ static void print_faint(const struct sheet_page *page, FILE *out) {
   const struct slab *views = &finest->views;
   double reach = sqrt(finest->peak * slab_spacing(views, SLAB_U) * slab_spacing(views, SLAB_V) /
                       (M_PI * dropped));
-  if (reach < 1e3 * fmax(edge(views, SLAB_U), edge(views, SLAB_V)))
+  if (reach < 1e3 * fmax(sheet_edge(views, SLAB_U), sheet_edge(views, SLAB_V)))
     fprintf(out,
             "//   POV-Ray drops what is too faint (1e-10): even the brightest rays of a light\n"
             "//   end %.2g units away. Raise Gain, and lower the picture's exposure.\n",
@@ -128,7 +124,7 @@ static void print_table(const struct sheet *sheet, FILE *out) {
     const struct slab *slab = &page->levels[0].views;
     double area = slab->metres_per_unit * slab->metres_per_unit;
     fprintf(out, "//\n// Page %d: aperture %.6g x %.6g, %d x %d slopes %.4g..%.4g x %.4g..%.4g",
-            p + 1, edge(slab, SLAB_U), edge(slab, SLAB_V), slab->samples[SLAB_S],
+            p + 1, sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V), slab->samples[SLAB_S],
             slab->samples[SLAB_T], slab->st_window[0], slab->st_window[1], slab->st_window[2],
             slab->st_window[3]);
     if (isfinite(slab->st_distance)) fprintf(out, ", st plane at %.6g", slab->st_distance);
@@ -160,7 +156,7 @@ static void print_frames(const struct sheet *sheet, const struct sheet_text *tex
     const struct slab *slab = &sheet->pages[p].levels[0].views;
     const double *w = slab->st_window;
     fprintf(out, "  { %.15g, %.15g, %d, %.15g, %.15g, %d, %.15g, %.15g, %.15g, %d }%s\n",
-            edge(slab, SLAB_U), edge(slab, SLAB_V), slab->samples[SLAB_S], w[0], w[1],
+            sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V), slab->samples[SLAB_S], w[0], w[1],
             slab->samples[SLAB_T], w[2], w[3], slab_kappa(slab), first,
             p + 1 < sheet->page_count ? "," : "");
     first += sheet->pages[p].level_count;
@@ -172,7 +168,7 @@ static void print_frames(const struct sheet *sheet, const struct sheet_text *tex
   for (int p = 0; p < sheet->page_count; ++p) {
     const struct slab *slab = &sheet->pages[p].levels[0].views;
     const double *vectors[4] = {slab->u, slab->v, slab->normal, slab->center};
-    const double sizes[4] = {edge(slab, SLAB_U), edge(slab, SLAB_V), 1, 1};
+    const double sizes[4] = {sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V), 1, 1};
     fputs("  { ", out);
     for (int k = 0; k < 4; ++k)
       fprintf(out, "<%.15g, %.15g, %.15g>%s", vectors[k][0] / sizes[k], vectors[k][1] / sizes[k],
