@@ -34,7 +34,9 @@
 #declare Matt = finish { diffuse 1 ambient 0 }
 
 plane { y, -60 pigment { rgb 0.8 } finish { Matt } no_radiosity }
-plane { -z, -50 pigment { rgb 0.8 } finish { Matt } no_radiosity }
-sphere { <12, -50, 5>, 6 pigment { rgb 0 } finish { Matt } }
+plane { -z, -80 pigment { rgb 0.8 } finish { Matt } no_radiosity }
+sphere { <18, -48, 0>, 8 pigment { rgb 0 } finish { Matt } }
+cylinder { <-25, -60, 25>, <-25, -35, 25>, 2 pigment { rgb 0 } finish { Matt } }
 
-camera { location <-35, -12, -75> look_at <3, -52, 12> angle 55 right 4/3*x }
+// All that the lamp lights is in view, so that the pictures' means compare its flux.
+camera { location <-30, -8, -150> look_at <0, -52, 0> angle 58 right 4/3*x }
