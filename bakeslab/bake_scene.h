@@ -5,7 +5,7 @@
 #define BAKE_SCENE_H
 
 #include "bake_plan.h"
-#include "povray.h"
+#include "lamp.h"
 
 struct bake_look {
   enum bake_form form;

@@ -254,6 +254,8 @@ int cmd_bake(int argc, char **argv) {
   struct sigaction action = {.sa_handler = on_signal};
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
+  signal(SIGCHLD,
+         SIG_DFL); /* were it ignored, as some parents leave it, none could be waited for */
   struct sigaction hangup;
   sigaction(SIGHUP, NULL, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup stays in force */

@@ -17,7 +17,7 @@ static const char probe_scene[] = "#version 3.7;\n"
                                   "#declare Canned_Bake_Effects = \"\";\n"
                                   "#declare Canned_Bake_Probe = 1;\n"
                                   "#include \"canned_bake.inc\"\n"
-                                  "#include \"lamp.pov\"\n"
+                                  "#include \"" LAMP_SCRIPT "\"\n"
                                   "Canned_Probe()\n";
 
 /* ---- What the script declares ---- */
@@ -218,7 +218,7 @@ enum slab_result lamp_probe(const struct povray *povray, const struct lamp_sourc
                            .height = 2 + PROBE_SIDE * PROBE_VIEWS,
                            .frames = 1,
                            .library = library.paths,
-                           .preload = source->reads};
+                           .preload = "./" LAMP_READS};
   struct slab_picture picture = {0};
   files_remove_tree(directory);
   enum slab_result result = lamp_source_link(source, directory, error);

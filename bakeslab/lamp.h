@@ -12,6 +12,11 @@
 
 enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24 };
 
+/* What a scene's folder calls the script, and the preloaded list-maker, whose path may
+ * hold blanks, which LD_PRELOAD takes for separators. */
+#define LAMP_SCRIPT "canned-lamp.pov"
+#define LAMP_READS "canned-reads.so"
+
 /* Where POV-Ray finds what a script needs. Paths are absolute and owned. */
 struct lamp_source {
   const char *script;                      /* as the user named it, for messages; not owned */
@@ -40,7 +45,7 @@ enum slab_result lamp_source_open(const char *script, const char *const *librari
 void lamp_source_free(struct lamp_source *source);
 
 /* Makes `directory` and puts links to all that a scene in it includes: the
- * script is "lamp.pov" there. */
+ * script is LAMP_SCRIPT there. */
 enum slab_result lamp_source_link(const struct lamp_source *source, const char *directory,
                                   struct slab_error *error);
 

@@ -65,8 +65,10 @@ void lamp_source_free(struct lamp_source *source) {
   *source = (struct lamp_source){0};
 }
 
-/* Links in a scene's folder. */
-static const char script_link[] = "lamp.pov", folder_link[] = "lamp", canned_link[] = "canned";
+/* Links in a scene's folder, where POV-Ray looks for includes before it looks anywhere
+ * else: names that no script includes. */
+static const char script_link[] = LAMP_SCRIPT, folder_link[] = "canned-folder",
+                  canned_link[] = "canned-include", reads_link[] = LAMP_READS;
 
 static const char *library_link(int n, char name[LAMP_LINK_SIZE]) {
   snprintf(name, LAMP_LINK_SIZE, "library%d", n);
@@ -90,6 +92,7 @@ enum slab_result lamp_source_link(const struct lamp_source *source, const char *
   if (!result) result = make_link(directory, script_link, source->path, error);
   if (!result) result = make_link(directory, folder_link, source->folder, error);
   if (!result) result = make_link(directory, canned_link, source->include_pov, error);
+  if (!result) result = make_link(directory, reads_link, source->reads, error);
   char name[LAMP_LINK_SIZE];
   for (int n = 0; !result && source->libraries[n]; ++n)
     result = make_link(directory, library_link(n, name), source->libraries[n], error);
@@ -117,7 +120,7 @@ static void replace(char *text, size_t size, const char *from, const char *to) {
 void lamp_source_rename(const struct lamp_source *source, struct slab_error *error) {
   char quoted[PATH_MAX + 8];
   snprintf(quoted, sizeof quoted, "'%s'", source->script);
-  replace(error->text, sizeof error->text, "'lamp.pov'", quoted);
+  replace(error->text, sizeof error->text, "'" LAMP_SCRIPT "'", quoted);
   snprintf(quoted, sizeof quoted, "'%s/", source->folder);
-  replace(error->text, sizeof error->text, "'lamp/", quoted);
+  replace(error->text, sizeof error->text, "'canned-folder/", quoted);
 }
