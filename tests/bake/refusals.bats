@@ -1,0 +1,139 @@
+#!/usr/bin/env bats
+# Everything that a bake must refuse: one clear line, exit 1 or 2, no output and
+# no store left behind.
+bats_require_minimum_version 1.5.0
+load bake
+
+setup() { bake_setup; }
+
+@test "a script that is missing, or is a folder" {
+  refused 1 'none.pov: No such file' x.tif bake none.pov -o x.tif
+  mkdir folder.pov
+  refused 1 'folder.pov: .*not a file' x.tif bake folder.pov -o x.tif
+}
+
+@test "a script that does not parse: POV-Ray's line with the user's file and line" {
+  flat_lamp broken.pov 'sphere { <0, 0, 0> }'
+  refused 1 "'broken.pov' line 7: .*Parse Error" x.tif bake broken.pov -o x.tif
+  mkdir sub
+  printf '\n\nbox { oops }\n' >sub/parts.inc
+  flat_lamp sub/broken.pov '#include "parts.inc"'
+  refused 1 "/sub/parts.inc' line 3: .*oops" x.tif bake sub/broken.pov -o x.tif
+  flat_lamp broken.pov '#include "nowhere.inc"'
+  refused 1 'nowhere.inc' x.tif bake broken.pov -o x.tif
+  flat_lamp broken.pov '#error "The shade is too small\n"'
+  refused 1 'The shade is too small' x.tif bake broken.pov -o x.tif
+}
+
+@test "a script without a slab, without a name, without canned.inc" {
+  sed /Canned_Slab/d flat.pov >lamp.pov
+  refused 1 'lamp.pov: declares no slab; .*Canned_Slab' x.tif bake lamp.pov -o x.tif
+  sed /Canned_Lamp/d flat.pov >lamp.pov
+  refused 1 'lamp.pov: has no name; .*Canned_Lamp' x.tif bake lamp.pov -o x.tif
+  sed 's/"flat"/""/' flat.pov >lamp.pov
+  refused 1 'Canned_Lamp: the name is empty' x.tif bake lamp.pov -o x.tif
+  grep box flat.pov >lamp.pov
+  refused 1 'lamp.pov: declares no slab' x.tif bake lamp.pov -o x.tif
+  : >lamp.pov
+  refused 1 'lamp.pov: declares no slab' x.tif bake lamp.pov -o x.tif
+}
+
+@test "frames and windows that are none" {
+  sed 's/<0, 2, 0>/<0.5, 2, 0>/' flat.pov >lamp.pov
+  refused 1 'Canned_Slab: u = .*not perpendicular to v = <0.5' x.tif bake lamp.pov -o x.tif
+  sed 's/<0, 0, 1>/<0, 0.3, 1>/' flat.pov >lamp.pov
+  refused 1 'Canned_Slab: the normal .*not perpendicular' x.tif bake lamp.pov -o x.tif
+  sed 's/<0, 0, 1>/<0, 0, 0>/' flat.pov >lamp.pov
+  refused 1 'Canned_Slab: the normal has no length' x.tif bake lamp.pov -o x.tif
+  sed 's/<2, 0, 0>/<0, 0, 0>/' flat.pov >lamp.pov
+  refused 1 'Canned_Slab: an edge vector has no length' x.tif bake lamp.pov -o x.tif
+  sed 's/<-1, 1, -1, 1>/<-1, 1, 1, 1>/' flat.pov >lamp.pov
+  refused 1 'Canned_Slab: the st window .*is empty' x.tif bake lamp.pov -o x.tif
+  sed 's/, 0)/, -3)/' flat.pov >lamp.pov
+  refused 1 'Canned_Slab: the st distance .*negative' x.tif bake lamp.pov -o x.tif
+}
+
+@test "words that are no effects, and units that are none" {
+  refused 1 'effects: "shine" is no effect' x.tif bake flat.pov -o x.tif --effects caustics,shine
+  sed 's/Needs(""/Needs("caustics sparkle"/' flat.pov >lamp.pov
+  refused 1 'Canned_Needs: "sparkle" is none of' x.tif bake lamp.pov -o x.tif
+  flat_lamp lamp.pov 'Canned_Radiance_Unit("lm")'
+  refused 1 'Canned_Radiance_Unit: "lm" is none of' x.tif bake lamp.pov -o x.tif
+  flat_lamp lamp.pov 'Canned_Metres_Per_Unit(0)'
+  refused 1 'Canned_Metres_Per_Unit: 0.* is not greater than 0' x.tif bake lamp.pov -o x.tif
+  flat_lamp lamp.pov 'Canned_Bulb(<0, 0, -0.5>, 0, 1)'
+  refused 1 'Canned_Bulb: the radius 0.* is not greater than 0' x.tif bake lamp.pov -o x.tif
+}
+
+@test "POV-Ray missing, another program, another version, a broken one" {
+  refused 1 '/nonexistent: cannot be run; install POV-Ray' x.tif \
+    bake flat.pov -o x.tif --povray /nonexistent
+  refused 1 'true: does not say that it is POV-Ray' x.tif bake flat.pov -o x.tif --povray true
+  printf '#!/bin/sh\necho "POV-Ray 3.6.1" >&2\n' >old
+  printf '#!/bin/sh\ncase $1 in --version) povray --version 2>&1;; *) exit 0;; esac\n' >idle
+  printf '#!/bin/sh\ncase $1 in --version) povray --version 2>&1;; *) kill -SEGV $$;; esac\n' >crash
+  chmod +x old idle crash
+  refused 1 'old: is POV-Ray 3.6.1' x.tif bake flat.pov -o x.tif --povray ./old
+  refused 1 '.' x.tif bake flat.pov -o x.tif --povray ./idle
+  refused 1 'killed by signal 11' x.tif bake flat.pov -o x.tif --povray ./crash
+}
+
+@test "outputs that cannot be" {
+  : >file
+  mkdir folder.tif
+  refused 1 'none/x.tif.*: .*No such file' none/x.tif bake flat.pov -o none/x.tif
+  refused 1 'file/x.tif.*: .*Not a directory' file/x.tif bake flat.pov -o file/x.tif
+  refused 1 'x.png: the name must end in' x.png bake flat.pov -o x.png
+  refused 1 'lamp: the name must end in' lamp bake flat.pov -o lamp
+  refused 1 'folder.tif: .*not a regular file' '' bake flat.pov -o folder.tif
+  [ ! -e folder.tif.partial ]
+  refused 1 'EXR cannot hold LogLuv' x.exr bake flat.pov -o x.exr --precision logluv
+  : >x.tif.partial
+  refused 1 'x.tif.partial: cannot make this folder' '' bake flat.pov -o x.tif
+  [ ! -e x.tif ]
+}
+
+@test "arguments that are none: exit 2" {
+  local bad
+  for bad in '--uv 0' '--uv 4x' '--st 5x' '--st x5' '--st -3' '--uv 4x4x4' '--shard 3/2' '--shard 0/2' \
+    '--shard 1/1' '--shard 1' '--gain 3' '--gain 0' '--gain 2^' '--gain -2' '--gain nan' '--rays 0' '--rays -2' \
+    '--rays 3' '--rays x' '--rays-max 2' '--rays 4 --rays-max 7' '--jobs 0' '--precision double' \
+    '--camera fisheye' '--centre --rays 4' 'flat.pov' '--frobnicate'; do
+    # shellcheck disable=SC2086
+    refused 2 '.' x.tif bake flat.pov -o x.tif $bad
+  done
+  refused 2 'give a lamp script' x.tif bake -o x.tif
+  refused 2 'give -o' '' bake flat.pov
+}
+
+@test "radiance that overflows" {
+  flat_lamp lamp.pov 'sphere { <0, 0, -0.9>, 0.05 pigment { rgb 1 } finish { emission 60000 diffuse 0 } }'
+  run small lamp.pov -o x.tif --st 16 --gain 16
+  echo "$output"
+  [ "$status" -eq 1 ]
+  [[ $output == "bakeslab: page 1, sample ("*"): POV-Ray rendered an infinite radiance;"*"smaller --gain" ]]
+  [ ! -e x.tif ]
+  [ ! -e x.tif.partial ]
+  small lamp.pov -q -o x.tif --st 16
+  # Negative radiance is none for LogLuv; the batches are kept for a run that can.
+  sed 's/emission 0.5/emission -0.5/' flat.pov >lamp.pov
+  run small lamp.pov -o n.tif
+  echo "$output"
+  [ "$status" -eq 1 ]
+  [[ $output == *"--precision float"* ]]
+  [ ! -e n.tif ]
+  run small lamp.pov -o n.tif --precision float
+  [ "$status" -eq 0 ]
+  [[ $output == *"1 batches, 1 of them found"* ]]
+}
+
+@test "photons that shot nothing" {
+  local bulb='Canned_Bulb(<0, 0, -0.5>, 0.05, 100)'
+  sed 's/Needs(""/Needs("caustics"/' flat.pov >lamp.pov
+  echo "$bulb" >>lamp.pov
+  refused 1 'lamp.pov: caustics: POV-Ray shot 0 photons' x.tif small lamp.pov -o x.tif
+  # A target whose centre is the bulb's: POV-Ray shoots 5.
+  echo 'sphere { <0, 0, -0.5>, 0.2 pigment { rgbf 1 } interior { ior 1.5 } photons { target refraction on } }' >>lamp.pov
+  refused 1 'caustics: POV-Ray shot' x.tif small lamp.pov -o x.tif
+  refused 1 'caustics: POV-Ray shot' x.tif small lamp.pov -o x.tif --effects all
+}

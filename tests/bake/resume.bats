@@ -1,0 +1,138 @@
+#!/usr/bin/env bats
+# Nothing is lost: a bake that was interrupted, killed or damaged goes on from its
+# finished batches to the same samples, and from none that the lamp has outgrown.
+bats_require_minimum_version 1.5.0
+load bake
+
+setup() {
+  bake_setup
+  slow_lamp
+}
+
+# whole: the samples to compare with, baked once.
+whole() {
+  [ -f "$BATS_FILE_TMPDIR/whole.tif" ] || slow -q -o "$BATS_FILE_TMPDIR/whole.tif"
+  ln -sf "$BATS_FILE_TMPDIR/whole.tif" whole.tif
+}
+
+# Starts a bake of x.tif and ends it with a signal as soon as it has a batch.
+interrupt() {
+  slow -o x.tif >log 2>&1 3>&- &
+  local pid=$!
+  wait_for_batch x.tif.partial
+  pkill "-$1" -P "$pid" || kill "-$1" "$pid"
+  local status=0
+  wait "$pid" || status=$?
+  cat log
+  [ "$status" -ne 0 ]
+  [ ! -e x.tif ]
+  [ "$(finished x.tif.partial)" -ge 1 ]
+}
+
+# No POV-Ray of this test runs on.
+no_process_left() {
+  local tries=40
+  while [ -n "$(find /proc/[0-9]*/cwd -lname "$PWD/*.partial/*" 2>/dev/null)" ]; do
+    [ "$((tries -= 1))" -gt 0 ] || return 1
+    sleep 0.05
+  done
+}
+
+goes_on() {
+  run slow -o x.tif
+  echo "$output"
+  [ "$status" -eq 0 ]
+  [[ $output =~ ([0-9]+)\ batches,\ ([0-9]+)\ of\ them\ found ]]
+  [ "${BASH_REMATCH[2]}" -ge "$1" ]
+  [ "${BASH_REMATCH[2]}" -lt "${BASH_REMATCH[1]}" ]
+  [ ! -e x.tif.partial ]
+  same x.tif whole.tif
+}
+
+@test "SIGINT: one line, no process left, and the next run goes on" {
+  whole
+  interrupt INT
+  [ "$(cat log)" = "bakeslab: interrupted; finished batches are in x.tif.partial, and the same command goes on from them" ]
+  no_process_left
+  [ -z "$(find x.tif.partial -name '*.tmp*')" ]
+  goes_on 1
+}
+
+@test "kill -9: POV-Ray dies too" {
+  whole
+  interrupt KILL
+  no_process_left
+  goes_on 1
+}
+
+@test "killed again and again at any moment" {
+  whole
+  local delay
+  for delay in 0.05 0.3 0.7 1.1 1.6; do
+    timeout -s KILL "$delay" "$BAKESLAB" bake slow.pov -o x.tif --uv 16x16 --st 8x8 --rays 40 --uniform \
+      --precision float >log 2>&1 || true
+  done
+  slow -q -o x.tif
+  same x.tif whole.tif
+  [ ! -e x.tif.partial ]
+}
+
+@test "a batch that was damaged is baked again" {
+  whole
+  interrupt TERM
+  no_process_left
+  local frame
+  frame=$(find x.tif.partial -name frame.exr | head -n 1)
+  truncate -s 5000 "$frame"
+  run slow -o x.tif
+  [ "$status" -eq 0 ]
+  same x.tif whole.tif
+  rm x.tif
+  interrupt HUP
+  find x.tif.partial -name frame.exr -delete
+  run slow -o x.tif
+  echo "$output"
+  [ "$status" -eq 0 ]
+  [[ $output == *", 0 of them found"* ]]
+  same x.tif whole.tif
+}
+
+@test "a changed include makes old batches unused, even one with a computed name" {
+  whole
+  interrupt INT
+  echo '#declare Part = 0.25;' >parts.inc
+  run slow -o x.tif
+  echo "$output"
+  [ "$status" -eq 0 ]
+  [[ $output == *", 0 of them found"* ]]
+  run ! same x.tif whole.tif
+  rm x.tif
+  echo '#declare Part = 0.5;' >parts.inc
+  interrupt INT
+  sed -i 's/rgb 1 rgb/rgb 0.5 rgb/' slow.pov
+  run slow -o x.tif
+  [[ $output == *", 0 of them found"* ]]
+}
+
+@test "other options make old batches unused" {
+  interrupt INT
+  run slow -o x.tif --st 8x9
+  echo "$output"
+  [ "$status" -eq 0 ]
+  [[ $output == *", 0 of them found"* ]]
+}
+
+@test "a second bake of the same output is refused, the first unharmed" {
+  whole
+  slow -o x.tif >log 2>&1 3>&- &
+  local pid=$!
+  wait_for_batch x.tif.partial
+  run slow -o x.tif
+  echo "$output"
+  [ "$status" -eq 1 ]
+  [[ $output == "bakeslab: x.tif.partial: another bake of this output is at work"* ]]
+  run slow -o x.tif --shard 1/2
+  [ "$status" -eq 1 ]
+  wait "$pid"
+  same x.tif whole.tif
+}
