@@ -19,8 +19,7 @@
     // One more recursion than in the bake: the first one is from the floor to the lamp.
     radiosity {
       pretrace_start 0.08 pretrace_end 0.01
-      count Full_Lamp_Count, 10*Full_Lamp_Count
-      error_bound Full_Lamp_Error nearest_count 10 recursion_limit 3
+      count 6400, 64000 error_bound 0.2 nearest_count 10 recursion_limit 3
       low_error_factor 0.7 minimum_reuse 0.01 gray_threshold 0 brightness 1
     }
   }
@@ -39,4 +38,4 @@ sphere { <18, -48, 0>, 8 pigment { rgb 0 } finish { Matt } }
 cylinder { <-25, -60, 25>, <-25, -35, 25>, 2 pigment { rgb 0 } finish { Matt } }
 
 // All that the lamp lights is in view, so that the pictures' means compare its flux.
-camera { location <-30, -8, -150> look_at <0, -52, 0> angle 58 right 4/3*x }
+camera { location <-30, -8, -150> look_at <0, -60, -10> angle 58 right 2*x }

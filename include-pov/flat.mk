@@ -1,7 +1,27 @@
-# What POV-Ray reads is installed as it is; the demo is a script.
+# What POV-Ray reads is installed as it is. The demo: the paper's lamp from script
+# to slab to include to a picture, beside the picture that the whole lamp gives.
 POV_FILES := $(sort $(filter-out %/flat.mk,$(shell find include-pov -type f)))
 
+DEMO := build/demo
+DEMO_READS := include-pov/demo.pov include-pov/demo.sh
+
+$(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BIN) $(SETUP_FIRST)
+	@mkdir -p $(@D)
+	@echo 'Baking $< (about a minute on two processors)'
+	@include-pov/demo.sh timed $(DEMO)/bake.seconds $(BIN) bake $< -o $@
+
+$(DEMO)/parabolic.inc: $(DEMO)/parabolic.tif
+	@echo 'Writing the include file $@ and its image'
+	@$(BIN) include $< -o $@
+
+$(DEMO)/canned.exr: $(DEMO)/parabolic.inc $(DEMO_READS)
+	@echo 'Rendering the scene with the canned lamp'
+	@include-pov/demo.sh render $@ +L$(DEMO)
+
+$(DEMO)/full.exr: lamps/parabolic.pov include-pov/canned.inc $(DEMO_READS) | $(DEMO)/canned.exr
+	@echo 'Rendering it with the whole lamp and its interreflection (a minute or two)'
+	@include-pov/demo.sh render $@ +Llamps +Linclude-pov Declare=Full_Lamp=1
+
 .PHONY: demo
-demo: $(BIN) ## bake the paper's lamp, light a scene with it, compare with the full lamp
-	@mkdir -p build/demo
-	@BAKESLAB=$(abspath $<) CANNED_INCLUDE=$(abspath include-pov) BUILD=build/demo include-pov/demo.sh
+demo: $(DEMO)/canned.exr $(DEMO)/full.exr ## bake the paper's lamp, light a scene with it, compare with the full lamp
+	@include-pov/demo.sh compare $(DEMO)

@@ -39,15 +39,15 @@ FILE *fopen64(const char *path, const char *mode) {
   return file;
 }
 
-#define OPEN(name)                                                                       \
-  int name(const char *path, int flags, ...) {                                           \
-    va_list rest;                                                                        \
-    va_start(rest, flags);                                                               \
-    int mode = (flags & (O_CREAT | O_TMPFILE)) ? va_arg(rest, int) : 0;                  \
-    va_end(rest);                                                                        \
-    int file = NEXT(name)(path, flags, mode);                                            \
-    if (file >= 0 && (flags & O_ACCMODE) == O_RDONLY && !(flags & O_DIRECTORY)) note(path); \
-    return file;                                                                         \
+#define OPEN(name)                                                                                 \
+  int name(const char *path, int flags, ...) {                                                     \
+    va_list rest;                                                                                  \
+    va_start(rest, flags);                                                                         \
+    int mode = (flags & (O_CREAT | O_TMPFILE)) ? va_arg(rest, int) : 0;                            \
+    va_end(rest);                                                                                  \
+    int file = NEXT(name)(path, flags, mode);                                                      \
+    if (file >= 0 && (flags & O_ACCMODE) == O_RDONLY && !(flags & O_DIRECTORY)) note(path);        \
+    return file;                                                                                   \
   }
 
 OPEN(open)

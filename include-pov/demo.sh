@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# demo.sh - the steps of `make demo` that are more than one command.
+#   demo.sh timed FILE COMMAND...        runs a command and writes its CPU seconds to FILE
+#   demo.sh render PICTURE.exr OPTION... renders demo.pov, with a log and the CPU seconds
+#   demo.sh compare FOLDER               canned.exr against full.exr, as text and PNGs
+set -euo pipefail
+here=$(dirname "$0")
+
+# CPU seconds of a command and its children; what it says stays on the terminal.
+timed() {
+  local file=$1 TIMEFORMAT='%U %S'
+  shift
+  { time "$@" 2>&3; } 3>&2 2>"$file"
+  awk '{ printf "%.1f\n", $1 + $2 }' "$file" >"$file.sum"
+  mv "$file.sum" "$file"
+}
+
+render() {
+  local picture=$1 base=${1%.exr}
+  shift
+  if ! timed "$base.seconds" povray "+I$here/demo.pov" "+O$picture" +FE +W320 +H160 -D -A "$@" \
+    >"$base.log" 2>&1; then
+    rm -f "$picture"
+    echo "demo.sh: POV-Ray failed; see $base.log" >&2
+    return 1
+  fi
+}
+
+# Mean of a picture's green channel (the demo is grey).
+mean() {
+  oiiotool "$@" --printstats -o "$scratch" | awk '/Stats Avg/ { print $4 }'
+}
+
+# Relative RMS difference of two pictures, after averaging blocks of the given size.
+difference() {
+  local size="$((320 / $1))x$((160 / $1))"
+  local square
+  square=$(mean "$2" --resize:filter=box "$size" "$3" --resize:filter=box "$size" --sub --dup --mul)
+  awk -v square="$square" -v mean="$(mean "$3")" 'BEGIN { printf "%.1f %%", 100*sqrt(square)/mean }'
+}
+
+compare() {
+  local folder=$1 canned=$1/canned.exr full=$1/full.exr block
+  scratch=$(mktemp --suffix=.exr)
+  trap 'rm -f "$scratch"' EXIT
+  for picture in canned full; do
+    oiiotool "$folder/$picture.exr" --mulc 2 --powc 0.4545454 -o "$folder/$picture.png"
+  done
+  oiiotool "$canned" "$full" --absdiff --mulc 2 --powc 0.4545454 -o "$folder/difference.png"
+  awk -v c="$(mean "$canned")" -v f="$(mean "$full")" -v tc="$(cat "$folder/canned.seconds")" \
+    -v tf="$(cat "$folder/full.seconds")" -v tb="$(cat "$folder/bake.seconds")" 'BEGIN {
+    printf "\n                      canned lamp   whole lamp\n"
+    printf "mean of the picture   %11.5f  %11.5f   ratio %.4f\n", c, f, c/f
+    printf "CPU seconds           %11.1f  %11.1f   ratio 1 : %.0f\n", tc, tf, tf/tc
+    printf "baking took %.1f CPU seconds, once for all scenes\n\n", tb }'
+  for block in 1 4 16; do
+    printf 'RMS difference, means of %2d x %2d pixels: %s\n' "$block" "$block" \
+      "$(difference "$block" "$canned" "$full")"
+  done
+  cat <<TEXT
+Single pixels differ by the noise of the whole lamp's radiosity, which averages out; what
+stays in the means of blocks is the slab's own blur (16 x 16 positions on the aperture).
+Look at $folder/canned.png, $folder/full.png and $folder/difference.png
+TEXT
+}
+
+"$@"
