@@ -33,7 +33,8 @@ box { <-50, -50, -2.1>, <50, 50, -2> pigment { checker rgb 1 rgb <0.1, 0.4, 0> }
 LAMP
   echo '#declare Part = 0.5;' >parts.inc
 }
-bake() { "$BAKESLAB" bake "$@"; }
+# BAKE_EXEC=exec makes a background job's process the program itself.
+bake() { ${BAKE_EXEC-} "$BAKESLAB" bake "$@"; }
 small() { bake --uv 2 --st 4 --rays 4 "$@"; }
 slow() { bake slow.pov --uv 16x16 --st 8x8 --rays 40 --uniform --precision float "$@"; }
 
