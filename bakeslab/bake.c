@@ -11,6 +11,7 @@
 #include "bake_sum.h"
 #include "cli.h"
 #include "files.h"
+#include "housing.h"
 #include "slab_json.h"
 
 /* Passes everywhere before tiles are told apart: with fewer, a pilot misses light. */
@@ -170,7 +171,23 @@ static json_t *effects_json(const char *effects) {
   return object;
 }
 
-static char *provenance_text(const struct bake_work *work, const struct bake_noise *noise) {
+/* The lamp's visible housing as SDL, where the script declares one that stands alone. */
+static char *find_housing(const struct bake_work *work, struct bake_report *report) {
+  char *script = files_read(work->source->folder, strrchr(work->source->path, '/') + 1);
+  char *housing = script ? housing_find(script) : NULL;
+  char *scratch = housing ? bake_store_scratch(work->store, "housing") : NULL;
+  if (scratch && !housing_parses(work->povray, housing, scratch)) {
+    report->housing_left_out = true;
+    free(housing);
+    housing = NULL;
+  }
+  free(scratch);
+  free(script);
+  return housing;
+}
+
+static char *provenance_text(const struct bake_work *work, const struct bake_noise *noise,
+                             const char *housing) {
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
   json_t *object =
       json_pack("{s:s, s:s, s:s, s:o, s:s, s:f, s:f}", "command", work->options->command, "tool",
@@ -182,20 +199,23 @@ static char *provenance_text(const struct bake_work *work, const struct bake_noi
                         json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean",
                                   noise->mean != 0 ? noise->sample / noise->mean : 0, "flux",
                                   noise->flux));
+  if (housing) json_object_set_new(object, "housing", json_string(housing));
   char *text = json_dumps(object, JSON_COMPACT);
   json_decref(object);
   return text;
 }
 
 static enum slab_result write_slab(const struct bake_work *work, struct bake_state *state,
-                                   struct slab_error *error) {
+                                   struct bake_report *report, struct slab_error *error) {
   const struct bake_options *options = work->options;
   struct slab *pages = state->lamp.slabs;
   int count = state->lamp.slab_count;
   struct bake_noise noise;
   bake_sum_noise(state->sum, work->look.gain, &noise);
   enum slab_result result = bake_sum_finish(state->sum, work->look.gain, pages, error);
-  char *text = provenance_text(work, &noise);
+  char *housing = result ? NULL : find_housing(work, report);
+  char *text = provenance_text(work, &noise, housing);
+  free(housing);
   if (!result && !text) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int n = 0; n < count && !result; ++n) {
     result = slab_json_set(&pages[n], "provenance", text, error);
@@ -257,7 +277,7 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
   }
   /* A shard leaves the slab to the run without --shard. */
   report->assembled = options->shards == 1;
-  if (!result && report->assembled) result = write_slab(&work, &state, error);
+  if (!result && report->assembled) result = write_slab(&work, &state, report, error);
   bake_store_close(&state.store, !result && report->assembled);
   bake_sum_free(state.sum);
   bake_round_free(&state.pilot);

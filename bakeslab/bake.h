@@ -33,10 +33,11 @@ struct bake_options {
 };
 
 struct bake_report {
-  double rays;        /* shot in this run */
-  int batches, found; /* of this bake; found finished by an earlier run */
-  bool assembled;     /* false: a shard, which leaves that to the run without */
-  double cpu;         /* seconds of POV-Ray in this run */
+  double rays;           /* shot in this run */
+  int batches, found;    /* of this bake; found finished by an earlier run */
+  bool assembled;        /* false: a shard, which leaves that to the run without */
+  double cpu;            /* seconds of POV-Ray in this run */
+  bool housing_left_out; /* the script's Canned_Housing needs more than itself */
 };
 
 /* Bakes. `stop`, set by a signal handler, ends it with SLAB_STOPPED; finished

@@ -60,7 +60,7 @@ enum slab_result bake_plan_allocate(const struct bake_tiles *tiles, const double
                                     int pilot, int budget, int most, int *passes,
                                     struct slab_error *error) {
   int count = bake_tile_count(tiles);
-  struct tile_need *needs = malloc((size_t)count * sizeof *needs);
+  struct tile_need *needs = calloc((size_t)count, sizeof *needs);
   if (!needs) return slab_fail(error, SLAB_MEMORY, "out of memory");
   find_needs(tiles, deviation, needs);
   double all = 0, smallest = 0, largest = 0;
@@ -68,7 +68,7 @@ enum slab_result bake_plan_allocate(const struct bake_tiles *tiles, const double
     double d = needs[n].deviation;
     all += needs[n].rays;
     if (d > largest) largest = d;
-    if (d > 0 && (!smallest || d < smallest)) smallest = d;
+    if (d > 0 && (smallest == 0 || d < smallest)) smallest = d;
   }
   /* The cost grows with the scale: bisect between "pilot everywhere" and "most
    * wherever there is any noise". */

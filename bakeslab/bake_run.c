@@ -67,6 +67,15 @@ enum slab_result bake_run_read(const struct bake_work *work, const struct bake_r
 
 /* ---- Starting and ending processes ---- */
 
+/* Removes what a failed process has left, or nothing where its folder has moved to the
+ * store, and frees the slot. */
+static void release(struct process *process, bool remove) {
+  if (remove && process->scratch) files_remove_tree(process->scratch);
+  free(process->scratch);
+  process->scratch = NULL;
+  process->state = IDLE;
+}
+
 static enum slab_result start_batch(struct run *run, struct process *process, size_t batch,
                                     struct slab_error *error) {
   const struct bake_work *work = run->work;
@@ -86,9 +95,7 @@ static enum slab_result start_batch(struct run *run, struct process *process, si
     process->state = RENDERING;
     return SLAB_OK;
   }
-  if (process->scratch) files_remove_tree(process->scratch);
-  free(process->scratch);
-  *process = (struct process){0};
+  release(process, true);
   return result;
 }
 
@@ -131,9 +138,7 @@ static enum slab_result end_batch(struct run *run, struct process *process, int 
   if (!result) result = check_photons(run, process, error);
   if (!result) result = bake_store_commit(work->store, process->key, error);
   if (result) result = explain_full_disk(work->store, result, error);
-  if (result) files_remove_tree(process->scratch);
-  free(process->scratch);
-  *process = (struct process){0};
+  release(process, result != SLAB_OK);
   run->rays_done += batch->rays;
   return result;
 }
@@ -144,9 +149,7 @@ static void kill_all(struct run *run) {
     if (process->state == IDLE) continue;
     kill(process->pid, SIGKILL);
     while (waitpid(process->pid, NULL, 0) < 0 && errno == EINTR) continue;
-    files_remove_tree(process->scratch);
-    free(process->scratch);
-    *process = (struct process){0};
+    release(process, true);
   }
 }
 

@@ -227,6 +227,10 @@ static bool check_rays(struct bake_options *bake) {
 }
 
 static void report_done(const struct bake_options *bake, const struct bake_report *report) {
+  if (report->housing_left_out)
+    cli_complain("%s: note: Canned_Housing is left out of the slab, since it does not parse with "
+                 "only the numbers declared before it; write it without includes and macros",
+                 bake->lamp);
   if (bake->quiet) return;
   if (report->assembled)
     fprintf(stderr, "%s: %d batches, %d of them found finished; %.3g rays, %.1f CPU s of POV-Ray\n",

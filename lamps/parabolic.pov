@@ -47,5 +47,17 @@ intersection {
 }
 cylinder { 0.1*y, Height*y, Radius open texture { Black } }
 
+// What is seen of the lamp from outside; scenes get it as Parabolic_Canned_Case().
+#declare Canned_Housing = union {
+  intersection {
+    quadric { <1, 0, 1>, <0, 0, 0>, <0, 4*Focus, 0>, -4*Focus*(Height + Depth) translate 2*Thickness*y }
+    quadric { <1, 0, 1>, <0, 0, 0>, <0, 4*Focus, 0>, -4*Focus*(Height + Depth) translate Thickness*y inverse }
+    plane { -y, -Height }
+  }
+  cylinder { 0.1*y, Height*y, Radius + Thickness open }
+  pigment { rgb 0.3 } finish { diffuse 1 }
+}
+object { Canned_Housing }
+
 // For previews only: the bake brings its own cameras.
 camera { location <12, -40, -25> look_at <0, 3, 0> angle 40 }
