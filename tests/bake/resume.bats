@@ -17,7 +17,7 @@ whole() {
 
 # Starts a bake of x.tif and ends it with a signal as soon as it has a batch.
 interrupt() {
-  BAKE_EXEC='exec' slow -o x.tif >log 2>&1 3>&- &
+  BAKE_EXEC='exec' slow -o x.tif --jobs 1 >log 2>&1 3>&- &
   local pid=$!
   wait_for_batch x.tif.partial
   kill "-$1" "$pid"
@@ -124,7 +124,7 @@ goes_on() {
 
 @test "a second bake of the same output is refused, the first unharmed" {
   whole
-  BAKE_EXEC='exec' slow -o x.tif >log 2>&1 3>&- &
+  BAKE_EXEC='exec' slow -o x.tif --jobs 1 >log 2>&1 3>&- &
   local pid=$!
   wait_for_batch x.tif.partial
   kill -STOP "$pid"

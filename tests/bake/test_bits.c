@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "bakes.h"
 
@@ -87,7 +86,7 @@ static void assert_same(const char *one, const char *other, int pages) {
     size_t count = slab_sample_count(&a), different = 0, black = 0;
     assert_int_equal(count, slab_sample_count(&b));
     for (size_t n = 0; n < 3 * count; ++n) {
-      different += memcmp(&a.rgb[n], &b.rgb[n], sizeof *a.rgb) != 0;
+      different += a.rgb[n] != b.rgb[n];
       black += a.rgb[n] == 0;
     }
     if (different) fail_msg("%s, %s: %zu of %zu numbers differ", one, other, different, 3 * count);
