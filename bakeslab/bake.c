@@ -99,37 +99,8 @@ static enum slab_result choose_form(const struct bake_options *options, const st
   return SLAB_OK;
 }
 
-/* Adds all batches of a round to the sums, in order. */
-static enum slab_result add_round(const struct bake_work *work, const struct bake_round *round,
-                                  struct bake_sum *sum, struct slab_error *error) {
-  size_t largest = 1;
-  for (size_t n = 0; n < round->batch_count; ++n)
-    if (round->batches[n].rays > largest) largest = round->batches[n].rays;
-  float *rgb = malloc(largest * 3 * sizeof *rgb);
-  if (!rgb) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  enum slab_result result = SLAB_OK;
-  for (size_t n = 0; n < round->batch_count && !result; ++n) {
-    const struct bake_batch *batch = &round->batches[n];
-    result = bake_run_read(work, round, n, rgb, error);
-    const float *at = rgb;
-    for (size_t unit = batch->first; !result && unit < batch->first + batch->count;) {
-      const struct bake_box *box = &round->boxes[round->units[unit].box];
-      int pass = round->units[unit].pass;
-      size_t rays = (size_t)bake_box_rays(box);
-      bool pair = unit + 1 < batch->first + batch->count &&
-                  round->units[unit + 1].pass == pass + 1 &&
-                  round->units[unit + 1].box == round->units[unit].box;
-      bake_sum_add(sum, box, pass, at, pair ? at + 3 * rays : NULL);
-      at += (pair ? 6 : 3) * rays;
-      unit += pair ? 2 : 1;
-    }
-  }
-  free(rgb);
-  return result;
-}
-
-/* Renders and sums. A shard needs the whole pilot to plan by, but only its own part of
- * the round after that, and sums nothing of it. */
+/* Renders and sums. A shard needs the whole pilot's sums to plan by, but renders only its
+ * own part of the round after that. */
 static enum slab_result do_rounds(const struct bake_work *work, struct bake_state *state,
                                   struct bake_report *report, struct slab_error *error) {
   const struct bake_options *options = work->options;
@@ -140,10 +111,10 @@ static enum slab_result do_rounds(const struct bake_work *work, struct bake_stat
       bake_sum_new(&state->tiles, adaptive ? options->rays_max : passes, &state->sum, error);
   if (!result)
     result = bake_plan_pilot(&state->tiles, passes, work->look.form, &state->pilot, error);
-  if (!result)
-    result = bake_run(work, &state->pilot, adaptive, adaptive ? "pilot" : "bake", report, error);
   bool shard = options->shards > 1;
-  if (!result && (adaptive || !shard)) result = add_round(work, &state->pilot, state->sum, error);
+  if (!result)
+    result = bake_run(work, &state->pilot, adaptive || !shard ? state->sum : NULL,
+                      adaptive ? "pilot" : "bake", report, error);
   if (result || !adaptive) return result;
   double *deviation = malloc((size_t)tiles * sizeof *deviation);
   int *wanted = malloc((size_t)tiles * sizeof *wanted);
@@ -156,8 +127,8 @@ static enum slab_result do_rounds(const struct bake_work *work, struct bake_stat
     result = bake_plan_rest(&state->tiles, wanted, PILOT, work->look.form, &state->rest, error);
   free(deviation);
   free(wanted);
-  if (!result) result = bake_run(work, &state->rest, false, "bake", report, error);
-  if (!result && !shard) result = add_round(work, &state->rest, state->sum, error);
+  if (!result)
+    result = bake_run(work, &state->rest, shard ? NULL : state->sum, "bake", report, error);
   return result;
 }
 

@@ -32,8 +32,11 @@ struct run {
   struct lamp_library library;
   struct process *processes; /* 2 * jobs: as many may be closing as are rendering */
   int slots;
-  float *rgb;    /* room for the largest batch, to verify it */
-  size_t *order; /* batches to render, in this order */
+  float *rgb;           /* room for the largest batch, to verify it */
+  struct bake_sum *sum; /* or NULL */
+  bool *ready;          /* by batch: finished */
+  size_t summed;        /* batches added to the sum */
+  size_t *order;        /* batches to render, in this order */
   size_t count, next;
   size_t rays_done, rays_all;
   struct progress progress;
@@ -50,18 +53,33 @@ static char *batch_text(const struct bake_work *work, const struct bake_round *r
   return text;
 }
 
-enum slab_result bake_run_read(const struct bake_work *work, const struct bake_round *round,
-                               size_t batch, float *rgb, struct slab_error *error) {
+/* Reads a finished batch into run->rgb; refuses one that is not whole. */
+static enum slab_result read_batch(struct run *run, size_t batch, struct slab_error *error) {
+  const struct bake_work *work = run->work;
   struct povray_job job;
   char key[33];
-  char *text = batch_text(work, round, batch, &job, key);
+  char *text = batch_text(work, run->round, batch, &job, key);
   char *path = text ? bake_store_path(work->store, key) : NULL;
   job.directory = path;
   enum slab_result result =
-      path ? bake_scene_read(&work->look, round, &round->batches[batch], &job, rgb, error)
+      path ? bake_scene_read(&work->look, run->round, &run->round->batches[batch], &job, run->rgb,
+                             error)
            : slab_fail(error, SLAB_MEMORY, "out of memory");
   free(path);
   free(text);
+  return result;
+}
+
+/* Takes note of a finished batch, which run->rgb holds, and sums what has its turn. */
+static enum slab_result take_batch(struct run *run, size_t batch, struct slab_error *error) {
+  run->rays_done += run->round->batches[batch].rays;
+  run->ready[batch] = true;
+  enum slab_result result = SLAB_OK;
+  while (run->sum && !result && run->summed < run->round->batch_count && run->ready[run->summed]) {
+    size_t next = run->summed++;
+    if (next != batch) result = read_batch(run, next, error);
+    if (!result) bake_sum_add(run->sum, run->round, &run->round->batches[next], run->rgb);
+  }
   return result;
 }
 
@@ -139,8 +157,7 @@ static enum slab_result end_batch(struct run *run, struct process *process, int 
   if (!result) result = bake_store_commit(work->store, process->key, error);
   if (result) result = explain_full_disk(work->store, result, error);
   release(process, result != SLAB_OK);
-  run->rays_done += batch->rays;
-  return result;
+  return result ? result : take_batch(run, process->batch, error);
 }
 
 static void kill_all(struct run *run) {
@@ -157,7 +174,7 @@ static void kill_all(struct run *run) {
 
 static bool is_verified(struct run *run, size_t batch, const char *key) {
   if (!bake_store_has(run->work->store, key)) return false;
-  if (bake_run_read(run->work, run->round, batch, run->rgb, NULL) == SLAB_OK) return true;
+  if (read_batch(run, batch, NULL) == SLAB_OK) return true;
   char *path = bake_store_path(run->work->store, key);
   if (path) files_remove_tree(path); /* damaged: bake it again */
   free(path);
@@ -165,7 +182,8 @@ static bool is_verified(struct run *run, size_t batch, const char *key) {
 }
 
 /* Moves `next` to a batch that the store lacks. */
-static void skip_found(struct run *run, struct bake_report *report) {
+static enum slab_result skip_found(struct run *run, struct bake_report *report,
+                                   struct slab_error *error) {
   for (; run->next < run->count; ++run->next) {
     size_t batch = run->order[run->next];
     struct povray_job job;
@@ -173,11 +191,13 @@ static void skip_found(struct run *run, struct bake_report *report) {
     char *text = batch_text(run->work, run->round, batch, &job, key);
     bool found = text && is_verified(run, batch, key);
     free(text);
-    if (!found) return;
+    if (!found) return SLAB_OK;
     ++report->found;
-    run->rays_done += run->round->batches[batch].rays;
+    enum slab_result result = take_batch(run, batch, error);
+    if (result) return result;
     run->progress.start_part = (double)run->rays_done / (double)run->rays_all;
   }
+  return SLAB_OK;
 }
 
 static int count_rendering(const struct run *run, double *rays) {
@@ -232,7 +252,8 @@ static enum slab_result loop(struct run *run, const char *label, struct bake_rep
     progress_show(&run->progress, rays / (double)run->rays_all, label);
     for (; rendering < run->work->options->jobs; ++rendering) {
       struct process *process = idle_process(run);
-      if (process) skip_found(run, report);
+      if (process) result = skip_found(run, report, error);
+      if (result) return result;
       if (!process || run->next == run->count) break;
       result = start_batch(run, process, run->order[run->next++], error);
       if (result) return explain_full_disk(run->work->store, result, error);
@@ -245,9 +266,9 @@ static enum slab_result loop(struct run *run, const char *label, struct bake_rep
 }
 
 /* This shard's batches first, then the others'. Returns the rays of the largest. */
-static size_t put_in_order(struct run *run, bool whole) {
+static size_t put_in_order(struct run *run) {
   size_t largest = 1, shards = (size_t)run->work->options->shards;
-  for (size_t turn = 0; turn < (whole ? shards : 1); ++turn)
+  for (size_t turn = 0; turn < (run->sum ? shards : 1); ++turn)
     for (size_t n = ((size_t)run->work->options->shard + turn) % shards;
          n < run->round->batch_count; n += shards) {
       run->order[run->count++] = n;
@@ -257,17 +278,19 @@ static size_t put_in_order(struct run *run, bool whole) {
   return largest;
 }
 
-enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round, bool whole,
-                          const char *label, struct bake_report *report, struct slab_error *error) {
-  struct run run = {.work = work, .round = round, .slots = 2 * work->options->jobs};
+enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round,
+                          struct bake_sum *sum, const char *label, struct bake_report *report,
+                          struct slab_error *error) {
+  struct run run = {.work = work, .round = round, .sum = sum, .slots = 2 * work->options->jobs};
   run.processes = calloc((size_t)run.slots, sizeof *run.processes);
   run.order = malloc((round->batch_count + 1) * sizeof *run.order);
-  size_t largest = run.order ? put_in_order(&run, whole) : 1;
+  run.ready = calloc(round->batch_count + 1, sizeof *run.ready);
+  size_t largest = run.order ? put_in_order(&run) : 1;
   run.rgb = malloc(largest * 3 * sizeof *run.rgb);
   report->batches += (int)run.count;
   lamp_source_library(work->source, &run.library);
   enum slab_result result = SLAB_OK;
-  if (!run.processes || !run.order || !run.rgb)
+  if (!run.processes || !run.order || !run.ready || !run.rgb)
     result = slab_fail(error, SLAB_MEMORY, "out of memory");
   progress_start(&run.progress, work->options->quiet, 0);
   if (!result) result = loop(&run, label, report, error);
@@ -275,6 +298,7 @@ enum slab_result bake_run(const struct bake_work *work, const struct bake_round 
   progress_end(&run.progress);
   free(run.processes);
   free(run.order);
+  free(run.ready);
   free(run.rgb);
   return result;
 }

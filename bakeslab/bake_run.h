@@ -4,6 +4,7 @@
 
 #include "bake.h"
 #include "bake_store.h"
+#include "bake_sum.h"
 #include "progress.h"
 
 /* All that a round needs besides itself; nothing is owned. */
@@ -20,14 +21,11 @@ struct bake_work {
   const volatile sig_atomic_t *stop;
 };
 
-/* Renders what the store lacks: this shard's batches and, where `whole`, then those of
- * the other shards too. On an error or a stop all processes end and their scratch folders
- * go; finished batches stay. */
-enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round, bool whole,
-                          const char *label, struct bake_report *report, struct slab_error *error);
-
-/* Reads a finished batch; rgb as bake_scene_read fills it. */
-enum slab_result bake_run_read(const struct bake_work *work, const struct bake_round *round,
-                               size_t batch, float *rgb, struct slab_error *error);
+/* Renders what the store lacks of a round. With a sum, all of it (this shard's batches
+ * first), added to the sum in order; without, this shard's batches alone. On an error or
+ * a stop all processes end and their scratch folders go; finished batches stay. */
+enum slab_result bake_run(const struct bake_work *work, const struct bake_round *round,
+                          struct bake_sum *sum, const char *label, struct bake_report *report,
+                          struct slab_error *error);
 
 #endif

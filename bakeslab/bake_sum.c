@@ -87,8 +87,9 @@ static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int
   if (sum->tile_pairs[tile] <= pair) sum->tile_pairs[tile] = pair + 1;
 }
 
-void bake_sum_add(struct bake_sum *sum, const struct bake_box *box, int pass, const float *rgb,
-                  const float *mirrored) {
+/* The rays of one box in a pass and, unless NULL, in its antithesis. */
+static void add_box(struct bake_sum *sum, const struct bake_box *box, int pass, const float *rgb,
+                    const float *mirrored) {
   const int *first = box->first, *size = box->size;
   int at[SLAB_AXES];
   for (at[1] = first[1]; at[1] < first[1] + size[1]; ++at[1])
@@ -99,6 +100,19 @@ void bake_sum_add(struct bake_sum *sum, const struct bake_box *box, int pass, co
           rgb += 3;
           if (mirrored) mirrored += 3;
         }
+}
+
+void bake_sum_add(struct bake_sum *sum, const struct bake_round *round,
+                  const struct bake_batch *batch, const float *rgb) {
+  const struct bake_unit *unit = round->units + batch->first, *end = unit + batch->count;
+  while (unit < end) {
+    const struct bake_box *box = &round->boxes[unit->box];
+    size_t floats = 3 * (size_t)bake_box_rays(box);
+    bool pair = unit + 1 < end && unit[1].box == unit->box && unit[1].pass == unit->pass + 1;
+    add_box(sum, box, unit->pass, rgb, pair ? rgb + floats : NULL);
+    rgb += pair ? 2 * floats : floats;
+    unit += pair ? 2 : 1;
+  }
 }
 
 /* Variance of a pair's mean at one sample. */

@@ -1,8 +1,8 @@
 /* bake_sum.h - sums the passes of a bake into samples and tells their noise.
  *
  * POV-Ray's pixels are half floats: sums of them are exact in double precision, so
- * that their order does not matter. Pairs of passes must come in order, since sums of
- * squares are rounded. Noise is estimated from the scatter of the pairs' means, as if
+ * that their order does not matter. Batches must come in order all the same, since sums
+ * of squares are rounded. Noise is estimated from the scatter of the pairs' means, as if
  * their offsets were random; they fill the cell more evenly than that, so that the
  * estimate is an upper one. */
 #ifndef BAKE_SUM_H
@@ -16,9 +16,9 @@ enum slab_result bake_sum_new(const struct bake_tiles *tiles, int most_passes,
                               struct bake_sum **sum, struct slab_error *error);
 void bake_sum_free(struct bake_sum *sum);
 
-/* Adds the rays of one box in a pass and, unless NULL, in its antithesis. */
-void bake_sum_add(struct bake_sum *sum, const struct bake_box *box, int pass, const float *rgb,
-                  const float *mirrored);
+/* Adds the rays of a round's batch: 3 floats a ray, unit by unit. */
+void bake_sum_add(struct bake_sum *sum, const struct bake_round *round,
+                  const struct bake_batch *batch, const float *rgb);
 
 /* Standard deviation of a pair's mean (luminance, RMS over the tile), by tile. */
 enum slab_result bake_sum_deviation(const struct bake_sum *sum, double *deviation,
