@@ -24,10 +24,17 @@ test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
 	@sh tests/summary.sh $(TEST_LOGS)
 
-bench: $(BIN) ## measure, and print the tables that README.md quotes
+# Tools of the benchmarks; the demo's pictures are among what is measured.
+BENCH_FLOOR := $(B)/tests/bench/floor
+
+$(BENCH_FLOOR): $(B)/tests/bench/floor.o $(B)/tests/bench/lamp.o $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
+bench: $(BIN) $(BENCH_FLOOR) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
 	@mkdir -p build/bench
 	@for b in tests/bench/*.sh; do [ -x "$$b" ] || continue; \
-	  $(TEST_ENV) BUILD=$(abspath build/bench) "$$b" || exit 1; done
+	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
 
 lint: $(B)/flags ## check formatting, static analysis and house rules
 	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# What a bake costs against one ordinary image of the same lamp with as many rays: 2^24,
+# that is 16x16 x 64x64 samples of 16 rays, or 4096 x 4096 pixels.
+set -euo pipefail
+# shellcheck source=tests/bench/bench.bash
+. "$(dirname "$0")/bench.bash"
+repeats=${BENCH_REPEATS:-3}
+
+cat >view.pov <<'POV'
+#declare Canned_Bake_Effects = "";
+#include "parabolic.pov"
+camera { perspective location <X, 0, Z> direction y right 3*x up 3*z }
+POV
+
+uniform=() adaptive=() wall=() others=()
+for ((n = 0; n < repeats; ++n)); do
+  picture middle view.pov 4096 Declare=X=0 Declare=Z=0
+  bake uniform16 --rays 16 --uniform
+  bake adaptive16 --rays 16
+  uniform+=("$(calc %.3f "$(cat uniform16.cpu)/$(cat middle.cpu)")")
+  adaptive+=("$(calc %.3f "$(cat adaptive16.cpu)/$(cat middle.cpu)")")
+  wall+=("$(calc %.3f "$(cat adaptive16.wall)*$(nproc)/$(cat adaptive16.cpu)")")
+  others+=("$(cat adaptive16.others)")
+done
+picture cell view.pov 4096 Declare=X=2.5 Declare=Z=2.5
+
+heading "Cost of a bake: the paper's lamp, 2^24 rays, CPU over that of one image of as many"
+median() { spread "$@" | cut -d" " -f1; }
+row "--uniform, image seen from the aperture's middle" "$(spread "${uniform[@]}")" '<= 1.5' \
+  "$(holds "$(median "${uniform[@]}") <= 1.5")"
+row 'adaptive (the default), the same image' "$(spread "${adaptive[@]}")" '<= 1.5' \
+  "$(holds "$(median "${adaptive[@]}") <= 1.5")"
+row '--uniform, image seen from the middle between blockers' \
+  "$(calc %.2f "$(cat uniform16.cpu)/$(cat cell.cpu)")"
+row 'adaptive, the same image' "$(calc %.2f "$(cat adaptive16.cpu)/$(cat cell.cpu)")"
+row "wall time over CPU / $(nproc) jobs (others used $(median "${others[@]}") % of the machine)" \
+  "$(spread "${wall[@]}")" '<= 1.2' "$(holds "$(median "${wall[@]}") <= 1.2")"
+row 'CPU seconds: image, --uniform, adaptive (last run)' \
+  "$(printf '%.1f, %.1f, %.1f' "$(cat middle.cpu)" "$(cat uniform16.cpu)" "$(cat adaptive16.cpu)")"

@@ -1,0 +1,300 @@
+/* floor.c - how well slabs of lamps/parabolic.pov light a floor.
+ *
+ *   floor truth FILE UV ST RAYS   computes what the lamp itself does to the floor, its flux,
+ *                                 and the means over the cells of UV x UV x ST x ST samples
+ *   floor ideal FILE              the errors of a slab of those means
+ *   floor compare FILE SLAB       the errors of a slab
+ *   floor picture EXR A B         RMS difference, relative to the RMS, of POV-Ray's picture of
+ *                                 the window from (A, 0, B) and the caster's
+ *
+ * Errors: RMSE of the floor's irradiance over its mean, in %; error of the flux in %; RMS
+ * error of the samples over their mean, in %. The floor lies 60 units below the aperture and
+ * is 160 wide, of 64 x 64 receivers. */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lamp.h"
+#include "slab_exr.h"
+#include "slab_file.h"
+
+enum { SIDE = 64, POINTS = 600, CELL_POINTS = 8, FLUX_RAYS = 1 << 24 };
+static const double below = 60, width = 160;
+
+static double receiver(int n) {
+  return ((n + 0.5) / SIDE - 0.5) * width;
+}
+
+static void die(const char *text) {
+  fprintf(stderr, "floor: %s\n", text);
+  exit(1);
+}
+
+static void *room(size_t count, size_t size) {
+  void *p = calloc(count, size);
+  if (!p) die("out of memory");
+  return p;
+}
+
+/* ---- Truth ---- */
+
+struct truth {
+  int uv, st;
+  double flux;
+  double floor[SIDE * SIDE];
+  float *means[2]; /* two independent estimates of each cell's mean; a slab's raster */
+};
+
+static size_t mean_count(const struct truth *truth) {
+  return (size_t)truth->uv * (size_t)truth->uv * (size_t)truth->st * (size_t)truth->st;
+}
+
+/* Irradiance by midpoints on the aperture: cos^2/r^2 = below^2/r^4. */
+static double direct(double x, double z) {
+  double sum = 0, step = lamp_aperture / POINTS;
+  for (int j = 0; j < POINTS; ++j)
+    for (int i = 0; i < POINTS; ++i) {
+      double a = (i + 0.5) * step - lamp_aperture / 2, b = (j + 0.5) * step - lamp_aperture / 2;
+      double s = (x - a) / below, t = (z - b) / below, r = 1 + s * s + t * t;
+      sum += lamp_radiance(a, b, s, t) / (r * r);
+    }
+  return sum * step * step / (below * below);
+}
+
+/* One eighth of the floor; the lamp is as symmetric. */
+static void fill_floor(double *irradiance) {
+  for (int j = 0; j < SIDE / 2; ++j)
+    for (int i = 0; i <= j; ++i) {
+      double e = direct(receiver(i), receiver(j));
+      const int x[2] = {i, SIDE - 1 - i}, z[2] = {j, SIDE - 1 - j};
+      for (int n = 0; n < 4; ++n) {
+        irradiance[z[n / 2] * SIDE + x[n % 2]] = e;
+        irradiance[x[n % 2] * SIDE + z[n / 2]] = e;
+      }
+    }
+}
+
+static double random_number(uint64_t *state) {
+  *state = *state * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*state >> 11) * 0x1p-53;
+}
+
+static double cell_mean(const double low[4], const double size[4], int rays, uint64_t *seed) {
+  double shift[4], x[4], sum = 0;
+  for (int c = 0; c < 4; ++c) shift[c] = random_number(seed);
+  for (int n = 0; n < rays; ++n) {
+    lamp_point(n, shift, x);
+    for (int c = 0; c < 4; ++c) x[c] = low[c] + x[c] * size[c];
+    sum += lamp_radiance(x[0], x[1], x[2], x[3]);
+  }
+  return sum / rays;
+}
+
+static void fill_means(struct truth *truth, int rays) {
+  int uv = truth->uv, st = truth->st;
+  double du = lamp_aperture / uv, ds = 2 * lamp_slope / st;
+  const double size[4] = {du, du, ds, ds};
+  uint64_t seed = 1;
+  for (int half = 0; half < 2; ++half) {
+    float *mean = truth->means[half];
+    for (int row = 0; row < uv * st; ++row)
+      for (int column = 0; column < uv * st; ++column) {
+        const double low[4] = {column / st * du - lamp_aperture / 2,
+                               row / st * du - lamp_aperture / 2, column % st * ds - lamp_slope,
+                               row % st * ds - lamp_slope};
+        *mean++ = (float)cell_mean(low, size, rays / 2, &seed);
+      }
+  }
+}
+
+static void read_truth(const char *path, struct truth *truth) {
+  FILE *file = fopen(path, "rb");
+  if (!file || fread(truth, sizeof *truth, 1, file) != 1) die("no truth in that file");
+  for (int half = 0; half < 2; ++half) {
+    size_t count = mean_count(truth);
+    truth->means[half] = room(count, sizeof(float));
+    if (fread(truth->means[half], sizeof(float), count, file) != count) die("half a truth");
+  }
+  fclose(file);
+}
+
+static void write_truth(const char *path, const struct truth *truth) {
+  FILE *file = fopen(path, "wb");
+  bool ok = file && fwrite(truth, sizeof *truth, 1, file) == 1;
+  for (int half = 0; half < 2; ++half)
+    ok = ok &&
+         fwrite(truth->means[half], sizeof(float), mean_count(truth), file) == mean_count(truth);
+  if (!ok || fclose(file)) die("cannot write the truth");
+}
+
+static void make_truth(const char *path, int uv, int st, int rays) {
+  static struct truth truth;
+  truth.uv = uv;
+  truth.st = st;
+  for (int half = 0; half < 2; ++half) truth.means[half] = room(mean_count(&truth), sizeof(float));
+  truth.flux = lamp_flux(FLUX_RAYS);
+  fill_floor(truth.floor);
+  fill_means(&truth, rays);
+  write_truth(path, &truth);
+  double half_flux = lamp_flux(FLUX_RAYS / 2);
+  printf("%.6f %.4f\n", truth.flux * 1e-4, 100 * (half_flux / truth.flux - 1));
+}
+
+/* ---- A slab ---- */
+
+/* Green samples, slopes of one position together: [j][l][i][k] as the raster has them. */
+struct light {
+  int uv, st;
+  const float *sample;
+};
+
+/* Where a coordinate lies between the centres of `count` cells: constant in the outer
+ * half cells. */
+struct place {
+  int first, second;
+  float part; /* of the second */
+};
+
+static struct place between(double x, double low, double high, int count) {
+  double at = (x - low) / (high - low) * count - 0.5;
+  at = fmin(fmax(at, 0), count - 1);
+  int first = (int)at;
+  return (struct place){first, first + 1 < count ? first + 1 : first, (float)(at - first)};
+}
+
+static float mix(float one, float two, float part) {
+  return one + part * (two - one);
+}
+
+/* Irradiance at (x, z): midpoints of a grid of CELL_POINTS a cell and axis. Columns and
+ * rows of the raster are interpolated each by itself. */
+static double lit(const struct light *light, double x, double z) {
+  enum { MOST = 1024 };
+  struct place uv[2][MOST], st[2][MOST];
+  double slope[2][MOST];
+  int points = light->uv * CELL_POINTS, side = light->uv * light->st;
+  double step = lamp_aperture / points, sum = 0;
+  for (int n = 0; n < points; ++n)
+    for (int axis = 0; axis < 2; ++axis) {
+      double a = (n + 0.5) * step - lamp_aperture / 2;
+      slope[axis][n] = ((axis ? z : x) - a) / below;
+      uv[axis][n] = between(a, -lamp_aperture / 2, lamp_aperture / 2, light->uv);
+      st[axis][n] = between(slope[axis][n], -lamp_slope, lamp_slope, light->st);
+    }
+  for (int j = 0; j < points; ++j) {
+    const float *rows[4];
+    const int views[2] = {uv[1][j].first, uv[1][j].second},
+              lines[2] = {st[1][j].first, st[1][j].second};
+    for (int n = 0; n < 4; ++n)
+      rows[n] = light->sample + (size_t)(views[n / 2] * light->st + lines[n % 2]) * (size_t)side;
+    for (int i = 0; i < points; ++i) {
+      float corner[4];
+      for (int n = 0; n < 4; ++n) {
+        int column = (n / 2 ? uv[0][i].second : uv[0][i].first) * light->st +
+                     (n % 2 ? st[0][i].second : st[0][i].first);
+        corner[n] = mix(mix(rows[0][column], rows[1][column], st[1][j].part),
+                        mix(rows[2][column], rows[3][column], st[1][j].part), uv[1][j].part);
+      }
+      double radiance = (double)mix(mix(corner[0], corner[1], st[0][i].part),
+                                    mix(corner[2], corner[3], st[0][i].part), uv[0][i].part);
+      double r = 1 + slope[0][i] * slope[0][i] + slope[1][j] * slope[1][j];
+      sum += radiance / (r * r);
+    }
+  }
+  return sum * step * step / (below * below);
+}
+
+/* Prints floor, flux and samples; `flux` in lamp units, 0 where it isn't known. */
+static void report(const struct truth *truth, const struct light *light, double flux) {
+  double square = 0, mean = 0;
+  for (int j = 0; j < SIDE; ++j)
+    for (int i = 0; i < SIDE; ++i) {
+      double e = truth->floor[j * SIDE + i];
+      double error = lit(light, receiver(i), receiver(j)) - e;
+      square += error * error;
+      mean += e;
+    }
+  mean /= SIDE * SIDE;
+  /* The errors of the two estimates are independent: their product's mean has no bias. */
+  size_t count = mean_count(truth);
+  double product = 0, level = 0;
+  for (size_t n = 0; n < count; ++n) {
+    double one = (double)truth->means[0][n], two = (double)truth->means[1][n];
+    double sample = (double)light->sample[n];
+    product += (sample - one) * (sample - two);
+    level += one;
+  }
+  double samples = sqrt(fmax(product, 0) / (double)count) / (level / (double)count);
+  printf("%.2f %.3f %.1f\n", 100 * sqrt(square / (SIDE * SIDE)) / mean,
+         flux != 0 ? 100 * (flux / truth->flux - 1) : 0, 100 * samples);
+}
+
+static void ideal(const char *path) {
+  static struct truth truth;
+  read_truth(path, &truth);
+  size_t count = mean_count(&truth);
+  float *sample = room(count, sizeof *sample);
+  for (size_t n = 0; n < count; ++n) sample[n] = 0.5f * (truth.means[0][n] + truth.means[1][n]);
+  struct light light = {truth.uv, truth.st, sample};
+  report(&truth, &light, 0);
+}
+
+static void compare(const char *path, const char *name) {
+  static struct truth truth;
+  struct slab *slabs;
+  struct slab_error error;
+  int pages;
+  read_truth(path, &truth);
+  if (slab_file_load_all(name, &slabs, &pages, &error)) die(error.text);
+  const int *n = slabs->samples;
+  if (pages != 1 || n[SLAB_U] != truth.uv || n[SLAB_V] != truth.uv || n[SLAB_S] != truth.st ||
+      n[SLAB_T] != truth.st)
+    die("the slab has other samples than the truth");
+  size_t count = mean_count(&truth);
+  float *sample = room(count, sizeof *sample);
+  for (size_t k = 0; k < count; ++k) sample[k] = slabs->rgb[3 * k + 1];
+  struct light light = {truth.uv, truth.st, sample};
+  double flux[3];
+  slab_flux(slabs, flux);
+  report(&truth, &light, flux[1]);
+}
+
+static void picture(const char *name, double a, double b) {
+  struct slab_picture shown;
+  struct slab_error error;
+  if (slab_exr_read(name, &shown, &error)) die(error.text);
+  double wrong = 0, all = 0;
+  int edges = 0;
+  for (int y = 0; y < shown.height; ++y)
+    for (int x = 0; x < shown.width; ++x) {
+      /* `right` is +x and `up` +z of a camera that looks up. */
+      double up_x = (2 * (x + 0.5) / shown.width - 1) * lamp_slope;
+      double up_z = (1 - 2 * (y + 0.5) / shown.height) * lamp_slope;
+      double cast = lamp_radiance(a, b, -up_x, -up_z);
+      double difference = (double)shown.rgb[3 * (y * shown.width + x)] - cast;
+      if (fabs(difference) > 0.01 * cast + 1e-3) {
+        ++edges;
+        continue;
+      }
+      wrong += difference * difference;
+      all += cast * cast;
+    }
+  printf("%.1e %d\n", sqrt(wrong / all), edges);
+}
+
+int main(int argc, char **argv) {
+  const char *what = argc > 2 ? argv[1] : "";
+  if (!strcmp(what, "truth") && argc == 6)
+    make_truth(argv[2], atoi(argv[3]), atoi(argv[4]), atoi(argv[5]));
+  else if (!strcmp(what, "ideal"))
+    ideal(argv[2]);
+  else if (!strcmp(what, "compare") && argc == 4)
+    compare(argv[2], argv[3]);
+  else if (!strcmp(what, "picture") && argc == 5)
+    picture(argv[2], atof(argv[3]), atof(argv[4]));
+  else
+    die("see floor.c for its arguments");
+  return 0;
+}
