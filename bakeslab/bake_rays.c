@@ -2,21 +2,45 @@
 #include "bake_rays.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 int bake_box_rays(const struct bake_box *box) {
   return box->size[SLAB_U] * box->size[SLAB_V] * box->size[SLAB_S] * box->size[SLAB_T];
 }
 
-/* Kronecker sequence of the generalised golden ratio in four dimensions, the root
- * of x^5 = x + 1: every prefix of it fills the cell evenly, so that blocks may stop
- * after different numbers of passes. */
+enum { BITS = 32 };
+
+/* Direction numbers of Sobol's sequence along one axis, after Joe and Kuo (2008): a
+ * primitive polynomial of this degree and inner coefficients, and the first numbers. */
+static void direction_numbers(int axis, uint32_t v[BITS]) {
+  static const struct {
+    int degree;
+    uint32_t inner, first[3];
+  } polynomials[SLAB_AXES] = {{0, 0, {0}}, {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}};
+  int degree = polynomials[axis].degree;
+  for (int n = 0; n < BITS; ++n) {
+    if (degree == 0 || n < degree) {
+      v[n] = (degree ? polynomials[axis].first[n] : 1) << (BITS - 1 - n);
+      continue;
+    }
+    v[n] = v[n - degree] ^ v[n - degree] >> degree;
+    for (int k = 1; k < degree; ++k)
+      if (polynomials[axis].inner >> (degree - 1 - k) & 1) v[n] ^= v[n - k];
+  }
+}
+
+/* Sobol's sequence: of 2^m points each of 2^m equal slices of the cell holds one, along
+ * every axis, which matters since a lamp's bars and edges lie along the axes, in step
+ * with the cells. The shift 0.010101... keeps the points a third away from the ends of
+ * their slices for every m, so that the mirrored ones fill the gaps. */
 void bake_offset(int pass, bool centre, double offset[SLAB_AXES]) {
-  static const double step[SLAB_AXES] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378086,
-                                         0.5385972572236100};
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
-    double x = 0.5 + (pass / 2 + 1) * step[axis];
-    double from_middle = x - floor(x) - 0.5;
+    uint32_t v[BITS], bits = 0x55555555;
+    direction_numbers(axis, v);
+    for (int n = 0; n < BITS; ++n)
+      if ((uint32_t)pass / 2 >> n & 1) bits ^= v[n];
+    double from_middle = ((double)bits + 0.5) * 0x1p-32 - 0.5;
     offset[axis] = centre ? 0 : pass % 2 ? -from_middle : from_middle;
   }
 }
