@@ -47,7 +47,7 @@ printf '  %-22s %10s\n' 'exact cell means' "$limit"
 cat <<'TEXT'
   floor: RMSE / mean of 64x64 receivers over 160 cm, 60 cm below; samples: RMS error / mean;
   stated: the noise by `bakeslab info`, an upper estimate; exact cell means: what is left to
-  interpolation.
+  the cells' blur (few rays a cell blur a little less than its mean).
 
 TEXT
 

@@ -4,6 +4,9 @@
  *                                 and the means over the cells of UV x UV x ST x ST samples
  *   floor ideal FILE              the errors of a slab of those means
  *   floor compare FILE SLAB       the errors of a slab
+ *   floor image FILE EXR [OTHER]  that of POV-Ray's picture of a floor of pigment 1 from above, a
+ *                                 multiple of 64 pixels wide, and its mean over the truth's (or
+ *                                 over another picture's)
  *   floor picture EXR A B         RMS difference, relative to the RMS, of POV-Ray's picture of
  *                                 the window from (A, 0, B) and the caster's
  *
@@ -261,6 +264,38 @@ static void compare(const char *path, const char *name) {
   report(&truth, &light, flux[1]);
 }
 
+/* Irradiance by means of blocks of a picture of the floor. */
+static void seen(const char *name, double irradiance[SIDE * SIDE]) {
+  struct slab_picture shown;
+  struct slab_error error;
+  if (slab_exr_read(name, &shown, &error)) die(error.text);
+  int block = shown.width / SIDE;
+  if (shown.width != shown.height || block * SIDE != shown.width) die("a picture of another size");
+  for (int n = 0; n < SIDE * SIDE; ++n) {
+    double sum = 0;
+    for (int y = n / SIDE * block; y < (n / SIDE + 1) * block; ++y)
+      for (int x = n % SIDE * block; x < (n % SIDE + 1) * block; ++x)
+        sum += (double)shown.rgb[3 * (y * shown.width + x)];
+    irradiance[n] = sum * 3.14159265358979323846 / (block * block);
+  }
+  slab_picture_free(&shown);
+}
+
+static void image(const char *path, const char *name, const char *other) {
+  static struct truth truth;
+  static double light[SIDE * SIDE];
+  double square = 0, mean = 0, expected = 0;
+  read_truth(path, &truth);
+  if (other) seen(other, truth.floor);
+  seen(name, light);
+  for (int n = 0; n < SIDE * SIDE; ++n) {
+    square += (light[n] - truth.floor[n]) * (light[n] - truth.floor[n]);
+    mean += light[n];
+    expected += truth.floor[n];
+  }
+  printf("%.2f %.4f\n", 100 * sqrt(square) * SIDE / expected, mean / expected);
+}
+
 static void picture(const char *name, double a, double b) {
   struct slab_picture shown;
   struct slab_error error;
@@ -292,6 +327,8 @@ int main(int argc, char **argv) {
     ideal(argv[2]);
   else if (!strcmp(what, "compare") && argc == 4)
     compare(argv[2], argv[3]);
+  else if (!strcmp(what, "image") && (argc == 4 || argc == 5))
+    image(argv[2], argv[3], argv[4]);
   else if (!strcmp(what, "picture") && argc == 5)
     picture(argv[2], atof(argv[3]), atof(argv[4]));
   else
