@@ -4,6 +4,7 @@
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli.h"
@@ -110,6 +111,28 @@ static char *image_path(const char *include) {
   return path;
 }
 
+/* Whether both paths lead, by whatever links, to one file that is there. */
+static int same_file(const char *path, const char *other) {
+  struct stat a, b;
+  if ((strcmp(path, "-") ? stat(path, &a) : fstat(STDIN_FILENO, &a)) != 0) return 0;
+  return stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/* The slab may be an EXR of the name that the image would get. */
+static enum slab_result check_outputs(const char *slab, const char *include, const char *image,
+                                      struct slab_error *error) {
+  const char *outputs[2] = {include, image};
+  for (int k = 0; k < 2; ++k)
+    if (same_file(slab, outputs[k]))
+      return slab_fail(error, SLAB_BAD,
+                       "%s: is the slab itself and would be overwritten; choose another -o",
+                       outputs[k]);
+  if (same_file(include, image))
+    return slab_fail(error, SLAB_BAD, "%s: is the same file as %s; choose another -o", image,
+                     include);
+  return SLAB_OK;
+}
+
 /* What the lamp script said about the visible lamp, or NULL. Allocated. */
 static char *housing_text(const struct slab *slab) {
   if (!slab->json) return NULL;
@@ -161,6 +184,7 @@ static enum slab_result include_slab(const struct arguments *arguments, struct s
   char *image = image_path(arguments->output), *housing = NULL;
   enum slab_result result = SLAB_OK;
   if (!image) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (result == SLAB_OK) result = check_outputs(arguments->slab, arguments->output, image, error);
   if (result == SLAB_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
   if (result == SLAB_OK) {
     result = capitalise(arguments->name ? arguments->name : slabs[0].name, name, error);

@@ -154,6 +154,30 @@ static void test_command_line(void **state) {
   slab_free(&slab);
 }
 
+/* The image beside the include would replace the slab, or a link would lead there. */
+static void test_own_slab(void **state) {
+  (void)state;
+  static const char *const commands[] = {
+      "include own/lamp.exr -o own/lamp.inc",    "include own/../own/lamp.exr -o own/lamp.inc",
+      "include own/linked.exr -o own/lamp.inc",  "include own/lamp.exr -o own/linked.inc",
+      "include own/lamp.exr -o own/hard.inc",    "include own/lamp.exr -o own/script.inc",
+      "include - -o own/lamp.inc <own/lamp.exr",
+  };
+  struct slab slab = rough_slab();
+  write_slab(&slab);
+  assert_int_equal(chain_run("mkdir own && cp slab.exr own/lamp.exr && cd own && "
+                             "ln -s lamp.exr linked.exr && ln lamp.exr hard.exr && "
+                             "ln -s lamp.exr script.inc"),
+                   0);
+  for (size_t k = 0; k < sizeof commands / sizeof *commands; ++k) {
+    if (chain_run("\"$BAKESLAB\" %s", commands[k]) != 1) fail_msg("not refused: %s", commands[k]);
+    if (!strstr(chain_log(), "choose another -o")) fail_msg("%s", chain_log());
+    assert_int_equal(chain_run("cmp slab.exr own/lamp.exr && test ! -e own/lamp.inc"), 0);
+  }
+  assert_int_equal(chain_run("\"$BAKESLAB\" include own/lamp.exr -o own/other.inc"), 0);
+  slab_free(&slab);
+}
+
 static void test_radiance(void **state) {
   (void)state;
   struct slab slab = rough_slab();
@@ -244,9 +268,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_tolerance),    cmocka_unit_test(test_macro_arguments),
       cmocka_unit_test(test_image),        cmocka_unit_test(test_gamma),
-      cmocka_unit_test(test_command_line), cmocka_unit_test(test_radiance),
-      cmocka_unit_test(test_name),         cmocka_unit_test(test_unseen),
-      cmocka_unit_test(test_housing),
+      cmocka_unit_test(test_command_line), cmocka_unit_test(test_own_slab),
+      cmocka_unit_test(test_radiance),     cmocka_unit_test(test_name),
+      cmocka_unit_test(test_unseen),       cmocka_unit_test(test_housing),
   };
   return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
 }
