@@ -10,14 +10,13 @@
 #include "bake_run.h"
 #include "bake_sum.h"
 #include "cli.h"
+#include "effects.h"
 #include "files.h"
 #include "housing.h"
 #include "slab_json.h"
 
 /* Passes everywhere before tiles are told apart: with fewer, a pilot misses light. */
 enum { PILOT = 4 };
-
-static const char all_effects[] = "interreflection caustics extended_source deep_trace";
 
 struct bake_state {
   struct povray povray;
@@ -27,37 +26,8 @@ struct bake_state {
   struct bake_tiles tiles;
   struct bake_round pilot, rest;
   struct bake_sum *sum;
-  char effects[256];
-  bool effects_named; /* by the user or by the lamp, rather than just all */
+  struct effects effects;
 };
-
-static bool has_word(const char *list, const char *word) {
-  size_t n = strlen(word);
-  for (const char *at = list; (at = strstr(at, word)); at += n)
-    if ((at == list || at[-1] == ' ') && (!at[n] || at[n] == ' ')) return true;
-  return false;
-}
-
-/* Which effects are on: the user's word, else the lamp author's, else all. */
-static enum slab_result choose_effects(const struct bake_options *options, struct bake_state *state,
-                                       struct slab_error *error) {
-  const char *wanted = options->effects;
-  if (!strcmp(wanted, "auto")) wanted = state->lamp.needs_declared ? state->lamp.needs : "all";
-  state->effects_named = strcmp(wanted, "all") != 0;
-  if (!state->effects_named) wanted = all_effects;
-  if (!strcmp(wanted, "none")) wanted = "";
-  snprintf(state->effects, sizeof state->effects, "%s", wanted);
-  char copy[sizeof state->effects], *rest = copy;
-  strcpy(copy, state->effects);
-  for (char *c = copy; *c; ++c)
-    if (*c == ',') *c = ' ';
-  strcpy(state->effects, copy);
-  for (char *word; (word = strsep(&rest, " "));)
-    if (*word && !has_word(all_effects, word))
-      return slab_fail(error, SLAB_BAD, "--effects: \"%s\" is no effect; there are: %s", word,
-                       all_effects);
-  return SLAB_OK;
-}
 
 /* A power of two that keeps the picture well inside half float's range. The probe
  * sees a few thousand rays only, so there is room above what it saw. */
@@ -134,20 +104,36 @@ static enum slab_result do_rounds(const struct bake_work *work, struct bake_stat
 
 /* ---- The slab ---- */
 
-static json_t *effects_json(const char *effects) {
+static json_t *effects_json(const struct effects *effects) {
   json_t *object = json_object();
-  char words[sizeof all_effects], *rest = strcpy(words, all_effects);
-  for (char *word; (word = strsep(&rest, " "));)
-    json_object_set_new(object, word, json_string(has_word(effects, word) ? "on" : "off"));
+  for (const char *at = effects_all; *(at += strspn(at, " "));) {
+    char word[32];
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(at, " "), at);
+    json_object_set_new(object, word, json_string(effects_has(effects, word) ? "on" : "off"));
+    at += strlen(word);
+  }
   return object;
+}
+
+/* File names on the command line may be no UTF-8, which JSON has to be. */
+static json_t *command_json(const char *command) {
+  json_t *text = json_string(command);
+  if (text) return text;
+  char *plain = strdup(command);
+  for (char *c = plain; c && *c; ++c)
+    if (*c < 0) *c = '?';
+  text = json_string(plain ? plain : "");
+  free(plain);
+  return text;
 }
 
 /* The lamp's visible housing as SDL, where the script declares one that stands alone. */
 static char *find_housing(const struct bake_work *work, struct bake_report *report) {
   char *script = files_read(work->source->folder, strrchr(work->source->path, '/') + 1);
   char *housing = script ? housing_find(script) : NULL;
-  char *scratch = housing ? bake_store_scratch(work->store, "housing") : NULL;
-  if (scratch && !housing_parses(work->povray, housing, scratch)) {
+  char *scratch = NULL;
+  if (housing && !bake_store_scratch(work->store, &scratch, NULL) &&
+      !housing_parses(work->povray, housing, scratch)) {
     report->housing_left_out = true;
     free(housing);
     housing = NULL;
@@ -161,10 +147,10 @@ static char *provenance_text(const struct bake_work *work, const struct bake_noi
                              const char *housing) {
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
   json_t *object =
-      json_pack("{s:s, s:s, s:s, s:o, s:s, s:f, s:f}", "command", work->options->command, "tool",
-                "bakeslab " BAKESLAB_VERSION, "renderer", work->povray->version, "effects",
-                effects_json(work->look.effects), "camera", forms[work->look.form], "gain",
-                work->look.gain, "rays", noise->rays);
+      json_pack("{s:o, s:s, s:s, s:o, s:s, s:f, s:f}", "command",
+                command_json(work->options->command), "tool", "bakeslab " BAKESLAB_VERSION,
+                "renderer", work->povray->version, "effects", effects_json(work->look.effects),
+                "camera", forms[work->look.form], "gain", work->look.gain, "rays", noise->rays);
   if (noise->known)
     json_object_set_new(object, "noise",
                         json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean",
@@ -199,13 +185,33 @@ static enum slab_result write_slab(const struct bake_work *work, struct bake_sta
                 : slab_file_write(options->output, pages, count, options->precision, error);
 }
 
-static enum slab_result probe_lamp(const struct bake_options *options, struct bake_state *state,
-                                   struct slab_error *error) {
-  char *scratch = bake_store_scratch(&state->store, "probe");
-  enum slab_result result =
-      scratch ? lamp_probe(&state->povray, &state->source, scratch, &state->lamp, error)
-              : slab_fail(error, SLAB_MEMORY, "out of memory");
+static enum slab_result probe_once(const struct bake_work *work, struct bake_state *state,
+                                   const char *effects, struct slab_error *error) {
+  char *scratch;
+  enum slab_result result = bake_store_scratch(&state->store, &scratch, error);
+  if (!result)
+    result = lamp_probe(&state->povray, &state->source, scratch, effects, work->stop, &state->lamp,
+                        error);
   free(scratch);
+  return result;
+}
+
+/* Which effects are on: the user's word, else the lamp author's, else all. The probe finds
+ * the same ones on as the bake will, since what a script reads may depend on them. */
+static enum slab_result probe_lamp(const struct bake_work *work, struct bake_state *state,
+                                   struct slab_error *error) {
+  const struct bake_options *options = work->options;
+  bool automatic = !strcmp(options->effects, "auto");
+  enum slab_result result = SLAB_OK;
+  if (!automatic) result = effects_parse(options->effects, "--effects", &state->effects, error);
+  if (!result) result = probe_once(work, state, automatic ? NULL : state->effects.words, error);
+  if (!result && automatic && state->lamp.needs_declared)
+    result = effects_parse(state->lamp.needs, "Canned_Needs", &state->effects, error);
+  if (!result && automatic && !state->lamp.needs_declared) {
+    lamp_free(&state->lamp);
+    result = effects_parse("all", "--effects", &state->effects, error);
+    if (!result) result = probe_once(work, state, state->effects.words, error);
+  }
   for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
     int *samples = state->lamp.slabs[n].samples;
     memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]},
@@ -229,8 +235,7 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
   if (!result) result = povray_find(options->povray, &state.povray, error);
   if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
   if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
-  if (!result) result = probe_lamp(options, &state, error);
-  if (!result) result = choose_effects(options, &state, error);
+  if (!result) result = probe_lamp(&work, &state, error);
   if (!result) result = choose_form(options, &state.lamp, &work.look.form, error);
   if (!result)
     result = bake_tiles_init(&state.tiles, state.lamp.slabs, state.lamp.slab_count,
@@ -240,10 +245,7 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
     work.look.defect_rows = state.lamp.defect_rows;
     work.look.centre = options->centre;
     work.look.gain = choose_gain(options, state.lamp.peak);
-    work.look.effects = state.effects;
-    work.look.interreflection = has_word(state.effects, "interreflection");
-    work.caustics = has_word(state.effects, "caustics");
-    work.caustics_named = work.caustics && state.effects_named;
+    work.look.effects = &state.effects;
     result = do_rounds(&work, &state, report, error);
   }
   /* A shard leaves the slab to the run without --shard. */

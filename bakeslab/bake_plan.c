@@ -1,6 +1,7 @@
 /* bake_plan.c - see bake_plan.h. */
 #include "bake_plan.h"
 
+#include <limits.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +10,14 @@
  * camera's face by a linear search through the meshes: batches of a few seconds. */
 enum { BATCH_RAYS = 1 << 21, BATCH_CAMERAS = 1024, BATCH_TILES = 4096, BATCH_FRAMES = 512 };
 
-enum { TILE = 16 };
+/* The sides of a tile, and of the largest mesh of directions, whose parsing grows faster
+ * than its faces do. */
+enum { TILE = 16, MESH = 64 };
+
+/* The longest side of a box. */
+static int longest_side(enum bake_form form) {
+  return form == BAKE_MESH ? MESH : INT_MAX;
+}
 
 /* ---- Tiles ---- */
 
@@ -102,6 +110,19 @@ static bool add_box(struct bake_round *round, struct bake_box box) {
   return true;
 }
 
+/* Adds a box in parts with sides of at most `most`. */
+static bool add_parts(struct bake_round *round, struct bake_box box, int most) {
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    if (box.size[axis] <= most) continue;
+    struct bake_box rest = box;
+    box.size[axis] = most;
+    rest.first[axis] += most;
+    rest.size[axis] -= most;
+    return add_parts(round, box, most) && add_parts(round, rest, most);
+  }
+  return add_box(round, box);
+}
+
 static bool add_unit(struct bake_round *round, int box, int pass) {
   struct bake_unit *grown = grow(round->units, round->unit_count, sizeof *grown);
   if (!grown) return false;
@@ -155,8 +176,8 @@ static enum slab_result cut_batches(struct bake_round *round, enum bake_form for
   return SLAB_OK;
 }
 
-/* One box a camera, covering whole views (or, transposed, whole directions). */
-static bool add_whole_boxes(const struct bake_tiles *tiles, struct bake_round *round) {
+/* Boxes that cover whole views (or, transposed, whole directions), as few as `most` allows. */
+static bool add_whole_boxes(const struct bake_tiles *tiles, int most, struct bake_round *round) {
   for (int page = 0; page < tiles->pages; ++page) {
     const int *n = tiles->slabs[page].samples;
     int slow = tiles->transposed ? n[SLAB_T] : n[SLAB_V],
@@ -166,7 +187,7 @@ static bool add_whole_boxes(const struct bake_tiles *tiles, struct bake_round *r
         struct bake_box box = {page, {x, y, 0, 0}, {1, 1, n[SLAB_S], n[SLAB_T]}};
         if (tiles->transposed)
           box = (struct bake_box){page, {0, 0, x, y}, {n[SLAB_U], n[SLAB_V], 1, 1}};
-        if (!add_box(round, box)) return false;
+        if (!add_parts(round, box, most)) return false;
       }
   }
   return true;
@@ -175,36 +196,47 @@ static bool add_whole_boxes(const struct bake_tiles *tiles, struct bake_round *r
 enum slab_result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
                                  struct bake_round *round, struct slab_error *error) {
   *round = (struct bake_round){0};
-  if (!add_whole_boxes(tiles, round) || !add_passes(round, 0, 0, passes))
+  if (!add_whole_boxes(tiles, longest_side(form), round) || !add_passes(round, 0, 0, passes))
     return slab_fail(error, SLAB_MEMORY, "out of memory");
   return cut_batches(round, form, error);
 }
 
+/* The box among those from `first` on that `box` continues downwards without growing
+ * longer than `most`; or the number of boxes. */
+static size_t find_above(const struct bake_round *round, size_t first, const struct bake_box *box,
+                         int x_axis, int y_axis, int most) {
+  size_t n = first;
+  for (; n < round->box_count; ++n) {
+    const struct bake_box *above = &round->boxes[n];
+    if (above->first[x_axis] == box->first[x_axis] && above->size[x_axis] == box->size[x_axis] &&
+        above->first[y_axis] + above->size[y_axis] == box->first[y_axis] &&
+        above->size[y_axis] <= most - box->size[y_axis])
+      break;
+  }
+  return n;
+}
+
 /* Covers the tiles of one camera that want more than `passes` by rectangles: runs of
  * tiles along a row, joined with a run of the same extent in the row before. */
-static bool add_covering(const struct bake_tiles *tiles, int page, int camera_at[SLAB_AXES],
-                         const int *wanted, int passes, struct bake_round *round) {
+static bool add_covering(const struct bake_tiles *tiles, int page, int at[SLAB_AXES],
+                         const int *wanted, int passes, int most, struct bake_round *round) {
   int x_axis = tiles->transposed ? SLAB_U : SLAB_S, y_axis = tiles->transposed ? SLAB_V : SLAB_T;
   int grid[SLAB_AXES];
   bake_tile_grid(tiles, page, grid);
   size_t first = round->box_count;
   for (int y = 0; y < grid[y_axis]; ++y)
     for (int x = 0; x < grid[x_axis]; ++x) {
-      camera_at[x_axis] = x, camera_at[y_axis] = y;
-      if (wanted[bake_tile_number(tiles, page, camera_at)] <= passes) continue;
-      struct bake_box box = bake_tile_box(tiles, page, camera_at);
+      at[x_axis] = x, at[y_axis] = y;
+      if (wanted[bake_tile_number(tiles, page, at)] <= passes) continue;
+      struct bake_box box = bake_tile_box(tiles, page, at);
       for (; x + 1 < grid[x_axis]; ++x) {
-        camera_at[x_axis] = x + 1;
-        if (wanted[bake_tile_number(tiles, page, camera_at)] <= passes) break;
-        box.size[x_axis] += bake_tile_box(tiles, page, camera_at).size[x_axis];
+        at[x_axis] = x + 1;
+        int width = bake_tile_box(tiles, page, at).size[x_axis];
+        if (wanted[bake_tile_number(tiles, page, at)] <= passes) break;
+        if (box.size[x_axis] > most - width) break;
+        box.size[x_axis] += width;
       }
-      size_t above = first;
-      while (above < round->box_count &&
-             !(round->boxes[above].first[x_axis] == box.first[x_axis] &&
-               round->boxes[above].size[x_axis] == box.size[x_axis] &&
-               round->boxes[above].first[y_axis] + round->boxes[above].size[y_axis] ==
-                   box.first[y_axis]))
-        ++above;
+      size_t above = find_above(round, first, &box, x_axis, y_axis, most);
       if (above < round->box_count)
         round->boxes[above].size[y_axis] += box.size[y_axis];
       else if (!add_box(round, box))
@@ -213,7 +245,7 @@ static bool add_covering(const struct bake_tiles *tiles, int page, int camera_at
   return true;
 }
 
-static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int passes,
+static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int passes, int most,
                       struct bake_round *round) {
   int slow_axis = tiles->transposed ? SLAB_T : SLAB_V,
       fast_axis = tiles->transposed ? SLAB_S : SLAB_U;
@@ -224,7 +256,7 @@ static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int pas
       for (int x = 0; x < grid[fast_axis]; ++x) {
         int at[SLAB_AXES] = {0};
         at[fast_axis] = x, at[slow_axis] = y;
-        if (!add_covering(tiles, page, at, wanted, passes, round)) return false;
+        if (!add_covering(tiles, page, at, wanted, passes, most, round)) return false;
       }
   }
   return true;
@@ -240,7 +272,8 @@ enum slab_result bake_plan_rest(const struct bake_tiles *tiles, const int *wante
   for (int passes = pilot; passes < most; passes *= 2) {
     size_t box = round->box_count;
     int to = 2 * passes < most ? 2 * passes : most;
-    if (!add_stage(tiles, wanted, passes, round) || !add_passes(round, box, passes, to))
+    if (!add_stage(tiles, wanted, passes, longest_side(form), round) ||
+        !add_passes(round, box, passes, to))
       return slab_fail(error, SLAB_MEMORY, "out of memory");
   }
   return cut_batches(round, form, error);

@@ -49,7 +49,7 @@ static char *batch_text(const struct bake_work *work, const struct bake_round *r
   bake_scene_size(&work->look, round, &round->batches[batch], job);
   char *text = bake_scene_text(&work->look, work->slabs, work->lamp->slab_count, round,
                                &round->batches[batch]);
-  if (text) bake_store_key(key, text, work->lamp->reads_key, work->povray->version, NULL);
+  if (text) bake_store_key(key, text, work->lamp->reads.key, work->povray->version, NULL);
   return text;
 }
 
@@ -99,12 +99,10 @@ static enum slab_result start_batch(struct run *run, struct process *process, si
   const struct bake_work *work = run->work;
   *process = (struct process){.batch = batch};
   char *text = batch_text(work, run->round, batch, &process->job, process->key);
-  process->scratch = text ? bake_store_scratch(work->store, process->key) : NULL;
+  enum slab_result result = text ? bake_store_scratch(work->store, &process->scratch, error)
+                                 : slab_fail(error, SLAB_MEMORY, "out of memory");
   process->job.directory = process->scratch;
   process->job.library = run->library.paths;
-  enum slab_result result = SLAB_OK;
-  if (!process->scratch) result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  if (!result) files_remove_tree(process->scratch);
   if (!result) result = lamp_source_link(work->source, process->scratch, error);
   if (!result) result = files_write(process->scratch, "scene.pov", text, error);
   if (!result) result = povray_start(work->povray, &process->job, &process->pid, error);
@@ -117,7 +115,7 @@ static enum slab_result start_batch(struct run *run, struct process *process, si
   return result;
 }
 
-/* POV-Ray dies of a full disk without saying so. */
+/* POV-Ray dies of a full disk without saying so; another reason may be the true one. */
 static enum slab_result explain_full_disk(const struct bake_store *store, enum slab_result result,
                                           struct slab_error *error) {
   struct statvfs disk;
@@ -125,19 +123,20 @@ static enum slab_result explain_full_disk(const struct bake_store *store, enum s
   if ((double)disk.f_bavail * (double)disk.f_frsize > 1 << 20) return result;
   return slab_fail(error, SLAB_IO,
                    "%s: the disk is full; make room and run the same command again, it goes on "
-                   "from the finished batches",
-                   store->directory);
+                   "from the finished batches (%s)",
+                   store->directory, error->text);
 }
 
 /* Photons that miss their targets are silent in POV-Ray, and lose the light. */
 static enum slab_result check_photons(const struct run *run, const struct process *process,
                                       struct slab_error *error) {
   enum { TOO_FEW = 1000 };
-  if (!run->work->caustics) return SLAB_OK;
+  const struct effects *effects = run->work->look.effects;
+  if (!effects_has(effects, "caustics")) return SLAB_OK;
   double shot = povray_statistic(process->scratch, "Number of photons shot:");
   double stored = povray_statistic(process->scratch, "Surface photons stored:");
   if (shot >= TOO_FEW && stored > 0) return SLAB_OK;
-  if (!run->work->caustics_named && (shot <= 0 || shot >= TOO_FEW)) return SLAB_OK;
+  if (!effects->named && (shot <= 0 || shot >= TOO_FEW)) return SLAB_OK;
   return slab_fail(error, SLAB_BAD,
                    "%s: caustics: POV-Ray shot %.0f photons and stored %.0f; give the glass or "
                    "mirror `photons { target ... }`, keep its centre off the bulb's, or leave "
@@ -154,7 +153,9 @@ static enum slab_result end_batch(struct run *run, struct process *process, int 
   if (!result)
     result = bake_scene_read(&work->look, run->round, batch, &process->job, run->rgb, error);
   if (!result) result = check_photons(run, process, error);
-  if (!result) result = bake_store_commit(work->store, process->key, error);
+  if (result == SLAB_BAD) slab_fail(error, result, "%s: %s", work->options->lamp, error->text);
+  if (!result) result = lamp_reads_unchanged(&work->lamp->reads, error);
+  if (!result) result = bake_store_commit(work->store, process->scratch, process->key, error);
   if (result) result = explain_full_disk(work->store, result, error);
   release(process, result != SLAB_OK);
   return result ? result : take_batch(run, process->batch, error);

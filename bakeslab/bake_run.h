@@ -16,8 +16,6 @@ struct bake_work {
   const struct bake_store *store;
   const struct slab *slabs; /* lamp->slab_count of them */
   struct bake_look look;
-  bool caustics;       /* photons that missed are an error */
-  bool caustics_named; /* so is a lamp without any */
   const volatile sig_atomic_t *stop;
 };
 

@@ -77,8 +77,9 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
   fprintf(out,
           "// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version "
           "3.7;\n#declare Canned_Bake_Effects = \"%s\";\n",
-          look->effects);
-  if (look->interreflection) /* a pretrace finer than 16 pixels costs much and gains 0.01 % */
+          look->effects->words);
+  /* A finer pretrace than every 16th pixel costs much and gains 0.01 %. */
+  if (effects_has(look->effects, "interreflection"))
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
             job->height > job->width ? job->height : job->width);
   fputs("#include \"canned_bake.inc\"\n#include \"" LAMP_SCRIPT "\"\n", out);

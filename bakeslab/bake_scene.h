@@ -5,15 +5,15 @@
 #define BAKE_SCENE_H
 
 #include "bake_plan.h"
+#include "effects.h"
 #include "lamp.h"
 
 struct bake_look {
   enum bake_form form;
-  int defect_rows;      /* image rows that mesh_camera wastes */
-  bool centre;          /* no offsets: rays through the samples' centres */
-  double gain;          /* power of two by which the picture is brighter than the lamp */
-  const char *effects;  /* words for Canned_Bake_Effects */
-  bool interreflection; /* whether they hold that word */
+  int defect_rows; /* image rows that mesh_camera wastes */
+  bool centre;     /* no offsets: rays through the samples' centres */
+  double gain;     /* power of two by which the picture is brighter than the lamp */
+  const struct effects *effects;
 };
 
 /* The text of scene.pov; the caller frees it. NULL when out of memory. */

@@ -14,12 +14,22 @@
 
 #include "files.h"
 
-/* Scratch folders of processes that were killed: nobody else holds the store now. */
-static void sweep(const char *directory) {
+static const char scratch_mark[] = "scratch.";
+
+/* Names that this file gives: keys, scratch folders, the lock. */
+static bool is_ours(const char *name) {
+  return !strcmp(name, "lock") || !strncmp(name, scratch_mark, strlen(scratch_mark)) ||
+         (strlen(name) == 32 && strspn(name, "0123456789abcdef") == 32);
+}
+
+/* Removes what begins so: all of ours, or the scratch folders of processes that were
+ * killed (nobody else holds the store then). */
+static void sweep(const char *directory, const char *beginning) {
   DIR *list = opendir(directory);
   if (!list) return;
   for (struct dirent *entry; (entry = readdir(list));) {
-    if (!strstr(entry->d_name, ".tmp")) continue;
+    if (!is_ours(entry->d_name) || strncmp(entry->d_name, beginning, strlen(beginning)) != 0)
+      continue;
     char *path = files_join(directory, entry->d_name);
     if (path) files_remove_tree(path);
     free(path);
@@ -42,30 +52,38 @@ enum slab_result bake_store_open(const char *output, bool shared, struct bake_st
   if (store->lock < 0)
     result = slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
   else if (flock(store->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
-    result = slab_fail(error, SLAB_IO, "%s: another bake of this output is at work; wait for it",
-                       store->directory);
+    if (errno == EWOULDBLOCK)
+      result = slab_fail(error, SLAB_IO, "%s: another bake of this output is at work; wait for it",
+                         store->directory);
+    else
+      result = slab_fail(error, SLAB_IO, "%s: cannot be locked: %s; bake on another file system",
+                         path, strerror(errno));
     close(store->lock); /* the store is the other's: closing it here removes nothing */
     store->lock = -1;
   } else if (!shared) {
-    sweep(store->directory);
+    sweep(store->directory, scratch_mark);
   }
   free(path);
   return result;
 }
 
-/* Whether there is a batch, finished or in hand. */
-static bool holds_batches(const char *directory) {
+/* Whether there is anything but the lock. */
+static bool is_empty(const char *directory) {
   DIR *list = opendir(directory);
-  bool found = false;
+  bool empty = true;
   for (struct dirent *entry; list && (entry = readdir(list));)
-    found |= entry->d_name[0] != '.' && strcmp(entry->d_name, "lock") != 0;
+    empty &= entry->d_name[0] == '.' || !strcmp(entry->d_name, "lock");
   if (list) closedir(list);
-  return found;
+  return empty;
 }
 
 void bake_store_close(struct bake_store *store, bool finished) {
-  if (store->lock >= 0 && (finished || !holds_batches(store->directory)))
-    files_remove_tree(store->directory);
+  /* A store that others share stays; alone with it, nothing of ours does. */
+  bool alone = store->lock >= 0 && flock(store->lock, LOCK_EX | LOCK_NB) == 0;
+  if (alone && (finished || is_empty(store->directory))) {
+    sweep(store->directory, "");
+    rmdir(store->directory); /* stays where somebody put something else into it */
+  }
   if (store->lock >= 0) close(store->lock);
   free(store->directory);
   *store = (struct bake_store){.lock = -1};
@@ -89,10 +107,19 @@ char *bake_store_path(const struct bake_store *store, const char *key) {
   return files_join(store->directory, key);
 }
 
-char *bake_store_scratch(const struct bake_store *store, const char *key) {
-  char *path = NULL;
-  if (asprintf(&path, "%s/%s.tmp%ld", store->directory, key, (long)getpid()) < 0) return NULL;
-  return path;
+enum slab_result bake_store_scratch(const struct bake_store *store, char **scratch,
+                                    struct slab_error *error) {
+  /* Not by process number: machines and containers that share the folder have the same. */
+  if (asprintf(scratch, "%s/%sXXXXXX", store->directory, scratch_mark) < 0) {
+    *scratch = NULL;
+    return slab_fail(error, SLAB_MEMORY, "out of memory");
+  }
+  if (mkdtemp(*scratch)) return SLAB_OK;
+  enum slab_result result =
+      slab_fail(error, SLAB_IO, "%s: cannot make this folder: %s", *scratch, strerror(errno));
+  free(*scratch);
+  *scratch = NULL;
+  return result;
 }
 
 bool bake_store_has(const struct bake_store *store, const char *key) {
@@ -102,19 +129,17 @@ bool bake_store_has(const struct bake_store *store, const char *key) {
   return has;
 }
 
-enum slab_result bake_store_commit(const struct bake_store *store, const char *key,
-                                   struct slab_error *error) {
+enum slab_result bake_store_commit(const struct bake_store *store, const char *scratch,
+                                   const char *key, struct slab_error *error) {
+  char *path = bake_store_path(store, key);
+  if (!path) return slab_fail(error, SLAB_MEMORY, "out of memory");
   enum slab_result result = SLAB_OK;
-  char *scratch = bake_store_scratch(store, key), *path = bake_store_path(store, key);
-  if (!scratch || !path)
-    result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  else if (rename(scratch, path) != 0) {
+  if (rename(scratch, path) != 0) {
     int reason = errno;
     files_remove_tree(scratch);
     if (reason != ENOTEMPTY && reason != EEXIST)
       result = slab_fail(error, SLAB_IO, "%s: %s", path, strerror(reason));
   }
-  free(scratch);
   free(path);
   return result;
 }

@@ -27,12 +27,14 @@ void bake_store_close(struct bake_store *store, bool finished);
 /* 32 hexadecimal digits and a 0 from texts up to a NULL. */
 void bake_store_key(char key[33], ...) __attribute__((sentinel));
 
-/* The folder of a batch, and one to render it in; the caller frees the strings. */
+/* The folder of a batch; the caller frees the string. */
 char *bake_store_path(const struct bake_store *store, const char *key);
-char *bake_store_scratch(const struct bake_store *store, const char *key);
+/* Makes an empty folder to work in, nobody else's; the caller frees the string. */
+enum slab_result bake_store_scratch(const struct bake_store *store, char **scratch,
+                                    struct slab_error *error);
 bool bake_store_has(const struct bake_store *store, const char *key);
-/* Moves the scratch folder in place. Someone else's copy, there already, is as good. */
-enum slab_result bake_store_commit(const struct bake_store *store, const char *key,
-                                   struct slab_error *error);
+/* Moves a scratch folder in place. Someone else's copy, there already, is as good. */
+enum slab_result bake_store_commit(const struct bake_store *store, const char *scratch,
+                                   const char *key, struct slab_error *error);
 
 #endif

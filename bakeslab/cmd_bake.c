@@ -75,9 +75,9 @@ static const char doc[] =
     "Finished batches are kept in SLAB.partial until the slab is written: after Ctrl-C, a crash "
     "or a full disk the same command goes on from them.\n"
     "\n"
-    "The samples are the same, bit for bit, for any --jobs and --shard and any --camera. With "
-    "interreflection each batch gathers for itself, so that --camera and --shard matter there: "
-    "the layout of the batches stays the same for any --jobs, and so do the samples.\n"
+    "The samples are the same, bit for bit, for any --jobs, --shard and --camera; with "
+    "interreflection for any --jobs and --shard only, since each batch gathers light for "
+    "itself and --camera lays out other batches.\n"
     "\n"
     "A lamp script is a program: POV-Ray runs it with your rights.\n"
     "\n"
@@ -119,7 +119,7 @@ static int parse_word(struct argp_state *state, const char *option, const char *
 
 static void parse_shard(struct argp_state *state, const char *text, struct bake_options *bake) {
   int k, n, used = 0;
-  if (sscanf(text, "%d/%d%n", &k, &n, &used) != 2 || text[used] || n < 2 || k < 1 || k > n)
+  if (sscanf(text, "%d/%d%n", &k, &n, &used) != 2 || text[used] || n < 1 || k < 1 || k > n)
     argp_error(state, "--shard %s: not a part such as 1/4", text);
   bake->shard = k - 1;
   bake->shards = n;

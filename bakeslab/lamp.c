@@ -5,17 +5,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
 #include "files.h"
 
 /* As include-pov/canned_bake.inc lays the probe's image out. */
 enum { PROBE_SIDE = 16, PROBE_VIEWS = 256, PROBE_MARKER = 5 };
 
+/* Canned_Bake_Probe keeps the effects' cost out; what depends on them is parsed. */
 static const char probe_scene[] = "#version 3.7;\n"
                                   "#declare Canned_Bake_Describe = \"declared.txt\";\n"
-                                  "#declare Canned_Bake_Effects = \"\";\n"
                                   "#declare Canned_Bake_Probe = 1;\n"
+                                  "%s%s%s"
                                   "#include \"canned_bake.inc\"\n"
                                   "#include \"" LAMP_SCRIPT "\"\n"
                                   "Canned_Probe()\n";
@@ -125,70 +125,6 @@ static enum slab_result read_declarations(const struct lamp_source *source, cons
   return result;
 }
 
-/* ---- What it reads ---- */
-
-static enum slab_result hash_file(const char *path, XXH3_state_t *state, struct slab_error *error) {
-  FILE *file = fopen(path, "re");
-  if (!file)
-    return slab_fail(error, SLAB_IO, "%s: cannot be read again after POV-Ray read it", path);
-  char block[65536];
-  size_t n;
-  while ((n = fread(block, 1, sizeof block, file)) > 0) XXH3_128bits_update(state, block, n);
-  XXH3_128bits_update(state, "\n--\n", 4); /* where one file ends matters too */
-  fclose(file);
-  return SLAB_OK;
-}
-
-static bool was_seen(char *const *seen, int count, const char *path) {
-  for (int n = 0; n < count; ++n)
-    if (!strcmp(seen[n], path)) return true;
-  return false;
-}
-
-/* Hashes each file once, in the order in which it was first read, whatever
- * folder it lies in; the probe's own files don't count. */
-static enum slab_result hash_reads(const struct lamp_source *source, const char *directory,
-                                   struct lamp *lamp, struct slab_error *error) {
-  char *own = realpath(directory, NULL);
-  char *text = files_read(directory, "reads.txt");
-  char **seen = NULL;
-  int count = 0;
-  enum slab_result result = SLAB_OK;
-  XXH3_state_t *state = XXH3_createState();
-  if (!own || !state) result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  if (state) XXH3_128bits_reset(state);
-  char *rest = text;
-  for (char *path; !result && rest && *rest && (path = strsep(&rest, "\n"));) {
-    if (!strncmp(path, own, strlen(own)) || !strncmp(path, "/proc/", 6) ||
-        was_seen(seen, count, path))
-      continue;
-    char **grown = realloc(seen, (size_t)(count + 1) * sizeof *seen);
-    if (!grown) {
-      result = slab_fail(error, SLAB_MEMORY, "out of memory");
-      break;
-    }
-    seen = grown;
-    seen[count++] = path;
-    result = hash_file(path, state, error);
-  }
-  /* A statically linked POV-Ray would ignore the preloaded list-maker. */
-  if (!result && !was_seen(seen, count, source->path))
-    result = slab_fail(error, SLAB_IO,
-                       "%s: cannot find out which files the script reads, since this POV-Ray "
-                       "ignores LD_PRELOAD; use a dynamically linked one",
-                       source->script);
-  if (!result) {
-    XXH128_hash_t hash = XXH3_128bits_digest(state);
-    snprintf(lamp->reads_key, sizeof lamp->reads_key, "%016llx%016llx",
-             (unsigned long long)hash.high64, (unsigned long long)hash.low64);
-  }
-  XXH3_freeState(state);
-  free(seen);
-  free(text);
-  free(own);
-  return result;
-}
-
 /* ---- What it looks like ---- */
 
 static bool is_marker_row(const struct slab_picture *picture, int row) {
@@ -208,8 +144,36 @@ static void read_picture(const struct slab_picture *picture, struct lamp *lamp) 
   }
 }
 
+static enum slab_result write_probe(const char *directory, const char *effects,
+                                    struct slab_error *error) {
+  char *scene = NULL;
+  if (asprintf(&scene, probe_scene, effects ? "#declare Canned_Bake_Effects = \"" : "",
+               effects ? effects : "", effects ? "\";\n" : "") < 0)
+    return slab_fail(error, SLAB_MEMORY, "out of memory");
+  enum slab_result result = files_write(directory, "scene.pov", scene, error);
+  free(scene);
+  return result;
+}
+
+/* Runs POV-Ray with the list-maker, which wants the list's path in the environment. */
+static enum slab_result run_listing(const struct povray *povray, const struct povray_job *job,
+                                    struct slab_error *error) {
+  char *folder = realpath(job->directory, NULL);
+  char *list = folder ? files_join(folder, "reads.txt") : NULL;
+  enum slab_result result = SLAB_OK;
+  if (!list || setenv("CANNED_READS", list, 1) != 0)
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (!result) result = povray_run(povray, job, error);
+  unsetenv("CANNED_READS");
+  free(list);
+  free(folder);
+  return result;
+}
+
 enum slab_result lamp_probe(const struct povray *povray, const struct lamp_source *source,
-                            const char *directory, struct lamp *lamp, struct slab_error *error) {
+                            const char *directory, const char *effects,
+                            const volatile sig_atomic_t *stop, struct lamp *lamp,
+                            struct slab_error *error) {
   *lamp = (struct lamp){0};
   struct lamp_library library;
   lamp_source_library(source, &library);
@@ -218,25 +182,22 @@ enum slab_result lamp_probe(const struct povray *povray, const struct lamp_sourc
                            .height = 2 + PROBE_SIDE * PROBE_VIEWS,
                            .frames = 1,
                            .library = library.paths,
-                           .preload = "./" LAMP_READS};
+                           .preload = "./" LAMP_READS,
+                           .stop = stop};
   struct slab_picture picture = {0};
-  files_remove_tree(directory);
   enum slab_result result = lamp_source_link(source, directory, error);
-  if (!result) result = files_write(directory, "scene.pov", probe_scene, error);
-  char *list = result ? NULL : realpath(directory, NULL);
-  char *reads = list ? files_join(list, "reads.txt") : NULL;
-  if (!result && (!reads || setenv("CANNED_READS", reads, 1) != 0))
-    result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  if (!result) result = povray_run(povray, &job, error);
-  unsetenv("CANNED_READS");
-  if (result) lamp_source_rename(source, error);
+  if (!result) result = write_probe(directory, effects, error);
+  if (!result) {
+    result = run_listing(povray, &job, error);
+    if (result) lamp_source_rename(source, error);
+    if (result == SLAB_BAD) slab_fail(error, result, "%s: %s", source->script, error->text);
+  }
   if (!result) result = read_declarations(source, directory, lamp, error);
-  if (!result) result = hash_reads(source, directory, lamp, error);
+  if (!result)
+    result = lamp_reads_collect(directory, source->path, source->script, &lamp->reads, error);
   if (!result) result = povray_read_frame(&job, 0, &picture, error);
   if (!result) read_picture(&picture, lamp);
   slab_picture_free(&picture);
-  free(reads);
-  free(list);
   files_remove_tree(directory);
   return result;
 }
@@ -244,5 +205,6 @@ enum slab_result lamp_probe(const struct povray *povray, const struct lamp_sourc
 void lamp_free(struct lamp *lamp) {
   for (int n = 0; n < lamp->slab_count; ++n) slab_free(&lamp->slabs[n]);
   free(lamp->slabs);
+  lamp_reads_free(&lamp->reads);
   *lamp = (struct lamp){0};
 }

@@ -7,6 +7,9 @@
 #ifndef LAMP_H
 #define LAMP_H
 
+#include <signal.h>
+
+#include "lamp_reads.h"
 #include "povray.h"
 #include "slab.h"
 
@@ -31,11 +34,11 @@ struct lamp {
   int slab_count;
   struct slab *slabs; /* geometry as declared; samples[] are all 1 */
   bool needs_declared;
-  char needs[256];    /* of Canned_Needs */
-  char reads_key[33]; /* of the content of every file that the script reads */
-  double peak;        /* brightest radiance seen by the probe, any channel */
-  bool mesh_camera;   /* works */
-  int defect_rows;    /* image rows to skip: 1 with POV-Ray 3.7's defect */
+  char needs[256];         /* of Canned_Needs */
+  struct lamp_reads reads; /* every file that the script reads */
+  double peak;             /* brightest radiance seen by the probe, any channel */
+  bool mesh_camera;        /* works */
+  int defect_rows;         /* image rows to skip: 1 with POV-Ray 3.7's defect */
 };
 
 /* Resolves the script and finds include-pov and the list-maker beside the
@@ -60,10 +63,13 @@ int lamp_source_library(const struct lamp_source *source, struct lamp_library *l
 /* Puts the user's file names back into a message of POV-Ray's. */
 void lamp_source_rename(const struct lamp_source *source, struct slab_error *error);
 
-/* Runs the probe in `directory`, which is made and removed. Free the lamp with
- * lamp_free in any case. */
+/* Runs the probe in `directory`, which is made if need be, and removed. `effects` are those
+ * that the script is to find on; NULL leaves that to its Canned_Needs. `stop` as for
+ * povray_run. Free the lamp with lamp_free in any case. */
 enum slab_result lamp_probe(const struct povray *povray, const struct lamp_source *source,
-                            const char *directory, struct lamp *lamp, struct slab_error *error);
+                            const char *directory, const char *effects,
+                            const volatile sig_atomic_t *stop, struct lamp *lamp,
+                            struct slab_error *error);
 void lamp_free(struct lamp *lamp);
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "files.h"
@@ -81,8 +82,9 @@ static enum slab_result write_ini(const struct povray_job *job, struct slab_erro
   fprintf(ini,
           "; Written by bakeslab. Again: povray render.ini\n"
           "Input_File_Name=scene.pov\nOutput_File_Name=frame.exr\nOutput_File_Type=E\n"
-          "Output_to_File=on\nWidth=%d\nHeight=%d\n",
-          job->width, job->height);
+          "Output_to_File=on\nWidth=%d\nHeight=%d\n"
+          "Start_Column=1\nEnd_Column=%d\nStart_Row=1\nEnd_Row=%d\n",
+          job->width, job->height, job->width, job->height);
   if (job->frames > 1) /* of one lamp: its clock stands still */
     fprintf(ini, "Initial_Frame=1\nFinal_Frame=%d\nInitial_Clock=0\nFinal_Clock=0\n", job->frames);
   fputs("Display=off\nPause_When_Done=off\nVerbose=on\nAntialias=off\nQuality=9\nOutput_Alpha=off\n"
@@ -177,15 +179,19 @@ enum slab_result povray_finish(const struct povray_job *job, int status, struct 
 
 enum slab_result povray_run(const struct povray *povray, const struct povray_job *job,
                             struct slab_error *error) {
-  pid_t pid;
+  pid_t pid, ended;
   enum slab_result result = povray_start(povray, job, &pid, error);
   if (result) return result;
   int status = 0;
   bool stopped = false;
-  while (waitpid(pid, &status, 0) < 0) {
-    if (errno != EINTR) return slab_fail(error, SLAB_IO, "waitpid: %s", strerror(errno));
-    stopped = true;
-    kill(pid, SIGKILL); /* the user's signal; nothing here is worth waiting for */
+  while ((ended = waitpid(pid, &status, WNOHANG)) != pid) {
+    if (ended < 0 && errno != EINTR)
+      return slab_fail(error, SLAB_IO, "waitpid: %s", strerror(errno));
+    if (job->stop && *job->stop && !stopped) {
+      stopped = true;
+      kill(pid, SIGKILL);
+    }
+    nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
   }
   if (stopped) return slab_fail(error, SLAB_STOPPED, "interrupted");
   return povray_finish(job, status, error);

@@ -12,6 +12,7 @@
 #ifndef POVRAY_H
 #define POVRAY_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <sys/types.h>
 
@@ -26,9 +27,10 @@ struct povray {
 struct povray_job {
   const char *directory;
   int width, height;
-  int frames;                 /* 1: a still */
-  const char *const *library; /* Library_Path entries, NULL-terminated */
-  const char *preload;        /* LD_PRELOAD for the child, or NULL */
+  int frames;                        /* 1: a still */
+  const char *const *library;        /* Library_Path entries, NULL-terminated */
+  const char *preload;               /* LD_PRELOAD for the child, or NULL */
+  const volatile sig_atomic_t *stop; /* set by a signal handler: povray_run ends; or NULL */
 };
 
 /* Asks the program for its version; refuses what is not POV-Ray 3.7 or 3.8. */

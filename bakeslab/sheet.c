@@ -45,8 +45,8 @@ static enum slab_result check_radiance(const struct slab *slab, int page,
     for (int c = 0; c < 3; ++c)
       if (sample(slab, k)[c] < 0)
         return slab_fail(error, SLAB_BAD,
-                         "page %d: radiance %g at pixel %zu,%zu is negative, which a sheet cannot "
-                         "hold; clamp the slab or bake it without sharpening",
+                         "page %d: radiance %g at pixel %zu,%zu is negative, which a filter "
+                         "before a light cannot show; give include a slab without negative light",
                          page + 1, (double)sample(slab, k)[c], k % width, k / width);
   return SLAB_OK;
 }

@@ -57,7 +57,7 @@ static const char *objection(enum slab_precision precision, const float rgb[3]) 
     for (int c = 0; c < 3; ++c)
       if (!slab_half_holds(rgb[c])) return "is beyond half's 65504: use --precision float";
   if (precision == SLAB_PRECISION_LOGLUV && !slab_tiff_logluv_holds(rgb))
-    return "has a negative luminance, or a colour or luminance that LogLuv cannot hold: use "
+    return "has a negative channel, or a colour or luminance that LogLuv cannot hold: use "
            "--precision float";
   return NULL;
 }

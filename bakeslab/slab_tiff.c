@@ -263,11 +263,16 @@ static void convert(enum slab_precision precision, const void *raw, size_t count
         precision == SLAB_PRECISION_HALF ? slab_half_to_float(halves[k]) : floats[k];
 }
 
+/* No writer puts negative channels into LogLuv: where there is light, they are what its
+ * steps of chromaticity make of zeros. */
 static void decode_xyz(const struct slab_raster *raster, float *pixels, size_t count) {
   for (size_t k = 0; k < count; ++k) {
     double xyz[3];
-    for (int c = 0; c < 3; ++c) xyz[c] = (double)pixels[3 * k + (size_t)c] / raster->white[c];
-    slab_logluv_to_rgb(xyz, pixels + 3 * k);
+    float *rgb = pixels + 3 * k;
+    for (size_t c = 0; c < 3; ++c) xyz[c] = (double)rgb[c] / raster->white[c];
+    slab_logluv_to_rgb(xyz, rgb);
+    for (size_t c = 0; c < 3 && xyz[1] > 0; ++c)
+      if (rgb[c] < 0) rgb[c] = 0;
   }
 }
 

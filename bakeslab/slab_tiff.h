@@ -27,12 +27,13 @@ int slab_tiff_pages(const struct slab_tiff *tiff);
 /* Owned by the file. The caller sets `white` before it reads LogLuv blocks. */
 struct slab_raster *slab_tiff_page(struct slab_tiff *tiff, int page);
 
-/* Reads a block into slab_raster_block_pixels pixels. */
+/* Reads a block into slab_raster_block_pixels pixels. Negative channels of LogLuv pixels
+ * with a positive luminance are rounding, and become 0. */
 enum slab_result slab_tiff_read_block(struct slab_tiff *tiff, int page, int column, int row,
                                       float *rgb, struct slab_error *error);
 
-/* Whether LogLuv can hold a pixel: black, or a real colour with a luminance
- * within its range. */
+/* Whether LogLuv can hold a pixel: black, or a colour without negative channels,
+ * with a luminance within its range. */
 bool slab_tiff_logluv_holds(const float rgb[3]);
 
 /* Writes pages in tiles (multiples of 16), losslessly compressed, as BigTIFF

@@ -19,6 +19,7 @@ static const double widest = 255.0 / 410.0;
 
 bool slab_tiff_logluv_holds(const float rgb[3]) {
   if (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) return true;
+  if (rgb[0] < 0 || rgb[1] < 0 || rgb[2] < 0) return false; /* readers make them 0 */
   double xyz[3];
   slab_logluv_from_rgb(rgb, xyz);
   for (int c = 0; c < 3; ++c) xyz[c] *= slab_tiff_white[c];

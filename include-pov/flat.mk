@@ -5,9 +5,9 @@ POV_FILES := $(sort $(filter-out %/flat.mk,$(shell find include-pov -type f)))
 DEMO := build/demo
 DEMO_READS := include-pov/demo.pov include-pov/demo.sh
 
-$(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BIN) $(SETUP_FIRST)
+$(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc $(BIN) | $(SETUP_FIRST)
 	@mkdir -p $(@D)
-	@echo 'Baking $< (about a minute on two processors)'
+	@echo 'Baking $< (a minute or two on two processors)'
 	@include-pov/demo.sh timed $(DEMO)/bake.seconds $(BIN) bake $< -o $@
 
 $(DEMO)/parabolic.inc: $(DEMO)/parabolic.tif
