@@ -185,10 +185,36 @@ static void test_radiance(void **state) {
   write_slab(&slab);
   expect_refusal("slab.exr -o out.inc", 1,
                  "slab.exr: page 1: radiance -0.5 at pixel 3,2 is negative");
+  assert_null(strstr(chain_log(), "clamp"));
   memset(slab.rgb, 0, sizeof(float) * 3 * 64 * 64);
   write_slab(&slab);
   expect_refusal("slab.exr -o out.inc", 1, "slab.exr: all radiance is zero");
   slab_free(&slab);
+}
+
+/* A lamp of saturated colours comes through LogLuv, the default, into the picture. */
+static void test_saturated(void **state) {
+  (void)state;
+  static const float colours[3][3] = {{1, 0, 0}, {0, 0, 1}, {1, 0.3F, 0}};
+  static double direct[3 * CHAIN_PIXELS];
+  for (int n = 0; n < 3; ++n) {
+    struct slab slab = rough_slab();
+    struct slab_error error;
+    struct slab_picture picture;
+    for (size_t k = 0; k < (size_t)3 * 64 * 64; ++k) slab.rgb[k] = slab.rgb[k / 3 * 3];
+    for (size_t k = 0; k < (size_t)3 * 64 * 64; ++k) slab.rgb[k] *= colours[n][k % 3];
+    if (slab_file_write(chain_path("lamp.tif"), &slab, 1, SLAB_PRECISION_LOGLUV, &error) != SLAB_OK)
+      fail_msg("%s", error.text);
+    if (chain_run("\"$BAKESLAB\" include lamp.tif -o lamp.inc") != 0) fail_msg("%s", chain_log());
+    struct chain_lamp lamp = lamp_of(&slab, 1);
+    struct chain_plane plane = chain_facing(&lamp, 0, 1);
+    chain_scene(&plane, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(1, 1) }");
+    chain_render(&picture);
+    chain_direct(&lamp, 1, &plane, direct);
+    assert_true(chain_rmse(&picture, direct) < 0.02);
+    slab_picture_free(&picture);
+    slab_free(&slab);
+  }
 }
 
 /* The longest name that is allowed, and its capitals. */
@@ -270,7 +296,8 @@ int main(void) {
       cmocka_unit_test(test_image),        cmocka_unit_test(test_gamma),
       cmocka_unit_test(test_command_line), cmocka_unit_test(test_own_slab),
       cmocka_unit_test(test_radiance),     cmocka_unit_test(test_name),
-      cmocka_unit_test(test_unseen),       cmocka_unit_test(test_housing),
+      cmocka_unit_test(test_unseen),       cmocka_unit_test(test_saturated),
+      cmocka_unit_test(test_housing),
   };
   return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
 }

@@ -132,6 +132,32 @@ static void test_logluv_range(void **state) {
   slab_free(&slab);
 }
 
+/* The steps of chromaticity make no negative light of saturated colours, at any luminance. */
+static void test_logluv_saturated(void **state) {
+  (void)state;
+  static const float colours[6][3] = {{1, 0, 0},    {0, 1, 0},     {0, 0, 1},
+                                      {1, 0.3F, 0}, {0, 0.01F, 1}, {1, 0, 0.6F}};
+  struct slab slab = awkward_slab((const int[]){1, 1, 6, 50}, INFINITY), *got = NULL;
+  struct slab_error error = {{0}};
+  int count = 0;
+  for (int k = 0; k < 6; ++k)
+    for (int l = 0; l < 50; ++l)
+      for (int c = 0; c < 3; ++c)
+        slab_at(&slab, 0, 0, k, l)[c] = colours[k][c] * (float)pow(1.3, l - 25);
+  const char *path = scratch("saturated.tif");
+  assert_ok(slab_file_write(path, &slab, 1, SLAB_PRECISION_LOGLUV, &error), &error);
+  assert_ok(slab_file_load_all(path, &got, &count, &error), &error);
+  for (int k = 0; k < 6; ++k)
+    for (int l = 0; l < 50; ++l)
+      for (int c = 0; c < 3; ++c) {
+        double read = (double)slab_at(got, 0, 0, k, l)[c];
+        assert_true(read >= 0);
+        assert_near(read / pow(1.3, l - 25), (double)colours[k][c], 0.025);
+      }
+  slab_file_free_all(got, count);
+  slab_free(&slab);
+}
+
 /* The format's raster and tags, read without our code; the primaries' matrix
  * is solved from their chromaticities. */
 static void test_tiff_as_others_see_it(void **state) {
@@ -258,6 +284,7 @@ static void test_refused_samples(void **state) {
   refuse(SLAB_PRECISION_LOGLUV, (const float[]){-1, -1, -1}, "--precision float");
   refuse(SLAB_PRECISION_LOGLUV, (const float[]){1, -1, 0}, "--precision float");
   refuse(SLAB_PRECISION_LOGLUV, (const float[]){1e20F, 1e20F, 1e20F}, "--precision float");
+  refuse(SLAB_PRECISION_LOGLUV, (const float[]){1, 1, -0.01F}, "negative channel");
   refuse(SLAB_PRECISION_LOGLUV, (const float[]){-1, 0.5F, -1}, "--precision float"); /* no colour */
   refuse(SLAB_PRECISION_LOGLUV, (const float[]){NAN, 1, 1}, "not finite");
   refuse(SLAB_PRECISION_FLOAT, (const float[]){1, INFINITY, 1}, "not finite");
@@ -386,17 +413,12 @@ static void test_exr_chunk_sizes(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_round_trips),
-      cmocka_unit_test(test_logluv_range),
-      cmocka_unit_test(test_tiff_as_others_see_it),
-      cmocka_unit_test(test_unknown_keys_are_kept),
-      cmocka_unit_test(test_provenance),
-      cmocka_unit_test(test_refused_samples),
-      cmocka_unit_test(test_extremes),
-      cmocka_unit_test(test_refused_targets),
-      cmocka_unit_test(test_failure_leaves_nothing),
-      cmocka_unit_test(test_symbolic_link),
-      cmocka_unit_test(test_exr_chunk_sizes),
+      cmocka_unit_test(test_round_trips),           cmocka_unit_test(test_logluv_range),
+      cmocka_unit_test(test_logluv_saturated),      cmocka_unit_test(test_tiff_as_others_see_it),
+      cmocka_unit_test(test_unknown_keys_are_kept), cmocka_unit_test(test_provenance),
+      cmocka_unit_test(test_refused_samples),       cmocka_unit_test(test_extremes),
+      cmocka_unit_test(test_refused_targets),       cmocka_unit_test(test_failure_leaves_nothing),
+      cmocka_unit_test(test_symbolic_link),         cmocka_unit_test(test_exr_chunk_sizes),
   };
   return cmocka_run_group_tests_name("slab files of ours", tests, NULL, NULL);
 }
