@@ -6,15 +6,9 @@ set -euo pipefail
 . "$(dirname "$0")/bench.bash"
 repeats=${BENCH_REPEATS:-3}
 
-cat >view.pov <<'POV'
-#declare Canned_Bake_Effects = "";
-#include "parabolic.pov"
-camera { perspective location <X, 0, Z> direction y right 3*x up 3*z }
-POV
-
 uniform=() adaptive=() wall=() others=()
 for ((n = 0; n < repeats; ++n)); do
-  picture middle view.pov 4096 Declare=X=0 Declare=Z=0
+  view middle 4096 0 0
   bake uniform16 --rays 16 --uniform
   bake adaptive16 --rays 16
   uniform+=("$(calc %.3f "$(cat uniform16.cpu)/$(cat middle.cpu)")")
@@ -22,7 +16,7 @@ for ((n = 0; n < repeats; ++n)); do
   wall+=("$(calc %.3f "$(cat adaptive16.wall)*$(nproc)/$(cat adaptive16.cpu)")")
   others+=("$(cat adaptive16.others)")
 done
-picture cell view.pov 4096 Declare=X=2.5 Declare=Z=2.5
+view cell 4096 2.5 2.5
 
 heading "Cost of a bake: the paper's lamp, 2^24 rays, CPU over that of one image of as many"
 median() { spread "$@" | cut -d" " -f1; }

@@ -33,6 +33,16 @@ picture() {
     "+L$CANNED_INCLUDE" "+L$root/lamps" "$@"
 }
 
+# view NAME SIZE X Z: the paper's lamp, its bulb alone, seen from (X, 0, Z) over the window.
+view() {
+  cat >view.pov <<'POV'
+#declare Canned_Bake_Effects = "";
+#include "parabolic.pov"
+camera { perspective location <X, 0, Z> direction y right 3*x up 3*z }
+POV
+  picture "$1" view.pov "$2" "Declare=X=$3" "Declare=Z=$4"
+}
+
 # bake NAME OPTION...: 16x16 x 64x64 samples of the paper's lamp, its bulb alone.
 bake() {
   local name=$1
