@@ -1,15 +1,16 @@
 /* cmd_include.c - bakeslab include: a slab as an include that lights any
  * POV-Ray scene. */
 #include <ctype.h>
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli.h"
+#include "housing.h"
 #include "sheet.h"
 #include "slab_file.h"
+#include "slab_json.h"
 #include "slab_output.h"
 
 static const char help_text[] =
@@ -133,17 +134,6 @@ static enum slab_result check_outputs(const char *slab, const char *include, con
   return SLAB_OK;
 }
 
-/* What the lamp script said about the visible lamp, or NULL. Allocated. */
-static char *housing_text(const struct slab *slab) {
-  if (!slab->json) return NULL;
-  json_t *page = json_loads(slab->json, 0, NULL);
-  const char *text =
-      json_string_value(json_object_get(json_object_get(page, "provenance"), "housing"));
-  char *copy = text ? strdup(text) : NULL;
-  json_decref(page);
-  return copy;
-}
-
 /* The include waits under its temporary name until the image is in place. */
 static enum slab_result write_files(const struct sheet *sheet, const struct sheet_text *text,
                                     const char *include, const char *image,
@@ -192,12 +182,18 @@ static enum slab_result include_slab(const struct arguments *arguments, struct s
     result = blame(arguments->slab, result, error);
   }
   if (result == SLAB_OK) {
-    housing = housing_text(&slabs[0]);
+    housing = slab_json_get_string(&slabs[0], "provenance", "housing");
+    int harmless = housing && housing_is_harmless(housing);
+    if (housing && !harmless)
+      cli_complain("%s: note: its housing is left out: it is more than an object (directives, or "
+                   "braces that do not match)",
+                   arguments->slab);
     struct sheet_text text = {.name = name,
                               .file = base_name(arguments->output),
                               .image = base_name(image),
                               .command = cli_command_line(),
-                              .housing = housing};
+                              .housing = harmless ? housing : NULL,
+                              .housing_left_out = housing && !harmless};
     result = write_files(&sheet, &text, arguments->output, image, error);
   }
   free(housing);
@@ -214,6 +210,11 @@ int cmd_include(int argc, char **argv) {
   error_t status = argp_parse(&argp, argc, argv, 0, NULL, &arguments);
   if (status != 0) return CLI_USAGE;
   size_t length = strlen(arguments.output);
+  for (const char *c = arguments.output; *c; ++c)
+    if (iscntrl((unsigned char)*c)) {
+      cli_complain("%s: the output's name must not have control characters", arguments.output);
+      return CLI_USAGE;
+    }
   if (length < 5 || strcmp(arguments.output + length - 4, ".inc")) {
     cli_complain("%s: the output must end in .inc; its image gets .exr", arguments.output);
     return CLI_USAGE;

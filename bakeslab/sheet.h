@@ -66,8 +66,9 @@ struct sheet_text {
   const char *name; /* an identifier, capitalised: Desk_Lamp */
   const char *file; /* names of the include and its image, without folders */
   const char *image;
-  const char *command; /* that made them */
-  const char *housing; /* SDL of the visible lamp, or NULL */
+  const char *command;  /* that made them */
+  const char *housing;  /* SDL of the visible lamp, or NULL */
+  int housing_left_out; /* there was one, which is not safe to use */
 };
 
 /* Builds levels, errors and image from the slabs of one lamp, with at most

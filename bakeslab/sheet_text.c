@@ -33,7 +33,7 @@ static void print_string(const char *text, FILE *out) {
 
 /* In a comment, a control character must not end the line. */
 static void print_comment(const char *text, FILE *out) {
-  for (; *text; ++text) putc((unsigned char)*text < ' ' ? '?' : *text, out);
+  for (; *text; ++text) putc((unsigned char)*text < ' ' || *text == 0x7f ? '?' : *text, out);
 }
 
 static const char *flux_unit(const struct slab *slab) {
@@ -44,20 +44,23 @@ static const char *flux_unit(const struct slab *slab) {
 
 static void print_usage(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
   const struct slab *slab = &sheet->pages[0].levels[0].views;
+  fputs("// Persistence of Vision Ray Tracer Scene Include File\n// File:    ", out);
+  print_comment(text->file, out);
+  fputs(", with its image ", out);
+  print_comment(text->image, out);
   fprintf(out,
-          "// Persistence of Vision Ray Tracer Scene Include File\n"
-          "// File:    %s, with its image %s beside it\n"
+          " beside it\n"
           "// For:     POV-Ray 3.7 or later; nothing else is needed to render\n"
           "// Desc:    canned light source %s: a lamp that was simulated once, as the\n"
           "//          light that leaves its aperture. One point light on each sample of\n"
           "//          the aperture; a sheet just before them filters each ray.\n"
           "// Licence: CC0 1.0, public domain: use it as you like\n"
           "// Made by: ",
-          text->file, text->image, text->name);
+          text->name);
   print_comment(text->command, out);
-  fputs("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include ", out);
-  print_string(text->file, out);
-  print_named("\n"
+  fputs("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include \"", out);
+  print_comment(text->file, out);
+  print_named("\"\n"
               "//          object { @_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
               "//\n"
               "// @_Canned(Scale, Gain)\n"
@@ -68,8 +71,9 @@ static void print_usage(const struct sheet *sheet, const struct sheet_text *text
   print_named(text->housing
                   ? "// @_Canned_Case()\n"
                     "//   The visible lamp, at Scale 1, for pictures in which it is seen.\n"
-                  : "// @_Canned_Case() is not declared: the lamp came without a housing.\n",
+                  : "// @_Canned_Case() is not declared: the lamp came without a housing",
               text->name, out);
+  if (!text->housing) fputs(text->housing_left_out ? " that could be used.\n" : ".\n", out);
   print_named("//\n"
               "// Declare before the #include, where the default does not suit:\n"
               "//   @_Lights\n"

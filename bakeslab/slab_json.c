@@ -38,7 +38,9 @@ static enum slab_result get_string(const json_t *root, const char *key, char *ou
   if (!string) return SLAB_OK;
   if (!json_is_string(string)) return slab_fail(error, SLAB_BAD, "\"%s\" must be a string", key);
   size_t length = json_string_length(string);
-  if (length >= room || strlen(json_string_value(string)) != length)
+  if (strlen(json_string_value(string)) != length)
+    return slab_fail(error, SLAB_BAD, "\"%s\" holds a zero byte", key);
+  if (length >= room)
     return slab_fail(error, SLAB_BAD, "\"%s\" is longer than %zu bytes", key, room - 1);
   memcpy(out, json_string_value(string), length + 1);
   return SLAB_OK;
@@ -257,6 +259,15 @@ char *slab_json_get(const struct slab *slab, const char *key) {
   char *text = value ? dump(value) : NULL;
   json_decref(root);
   return text;
+}
+
+char *slab_json_get_string(const struct slab *slab, const char *key, const char *inner) {
+  json_t *root = NULL;
+  if (load_object(slab, &root, NULL) != SLAB_OK) return NULL;
+  const char *text = json_string_value(json_object_get(json_object_get(root, key), inner));
+  char *copy = text ? strdup(text) : NULL;
+  json_decref(root);
+  return copy;
 }
 
 /* A string, or a note in its place where it is not UTF-8. */

@@ -31,6 +31,10 @@ enum slab_result slab_json_set(struct slab *slab, const char *key, const char *v
  * The caller frees it. */
 char *slab_json_get(const struct slab *slab, const char *key);
 
+/* The string at key.inner, say "provenance" and "housing"; NULL where it is none. The
+ * caller frees it. */
+char *slab_json_get_string(const struct slab *slab, const char *key, const char *inner);
+
 /* Records in "provenance" that `command` of `tool` made the slab. The command
  * and tool before go to the end of its array "history"; its other keys stay,
  * since they still describe the light. */

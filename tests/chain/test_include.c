@@ -192,6 +192,40 @@ static void test_radiance(void **state) {
   slab_free(&slab);
 }
 
+/* Text of a slab file stays text: it ends no macro and no comment. */
+static void test_injection(void **state) {
+  (void)state;
+  static const char *const housings[] = {
+      "sphere { 0, 1 } #end #fopen F \\\"made\\\" write #macro X()", "#fopen F \\\"made\\\" write",
+      "/* \\n #fopen F \\\"made\\\" write"};
+  struct slab slab = rough_slab();
+  struct chain_lamp lamp = lamp_of(&slab, 1);
+  struct chain_plane plane = chain_facing(&lamp, 0, 1);
+  struct slab_picture picture;
+  char provenance[256];
+  for (size_t k = 0; k < sizeof housings / sizeof *housings; ++k) {
+    snprintf(provenance, sizeof provenance, "{\"housing\": \"%s\"}", housings[k]);
+    assert_int_equal(slab_json_set(&slab, "provenance", provenance, NULL), SLAB_OK);
+    chain_include(&slab, 1, "lamp", "");
+    assert_non_null(strstr(chain_log(), "lamp-slab.exr: note: its housing is left out"));
+    assert_int_equal(chain_run("grep -q 'without a housing that could be used' lamp.inc"), 0);
+    chain_scene(&plane, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(1, 1) }");
+    chain_render(&picture);
+    slab_picture_free(&picture);
+    assert_int_equal(chain_run("test ! -e made"), 0);
+  }
+  /* The name must be an identifier; the command's line ends are not printed. */
+  snprintf(slab.name, sizeof slab.name, "lamp\n#error \"x\"");
+  write_slab(&slab);
+  expect_refusal("slab.exr -o out.inc", 1, "is no identifier");
+  expect_refusal("slab.exr -o \"$(printf 'out\\n.inc')\"", 2, "control characters");
+  assert_int_equal(chain_run("\"$BAKESLAB\" include slab.exr --name a --name b "
+                             "-o 'l\"#.inc' --lights \"$(printf '1')\""),
+                   0);
+  assert_int_equal(chain_run("grep -v '^//' 'l\"#.inc' | grep -F 'l\\\"#.exr'"), 0);
+  slab_free(&slab);
+}
+
 /* A lamp of saturated colours comes through LogLuv, the default, into the picture. */
 static void test_saturated(void **state) {
   (void)state;
@@ -297,7 +331,7 @@ int main(void) {
       cmocka_unit_test(test_command_line), cmocka_unit_test(test_own_slab),
       cmocka_unit_test(test_radiance),     cmocka_unit_test(test_name),
       cmocka_unit_test(test_unseen),       cmocka_unit_test(test_saturated),
-      cmocka_unit_test(test_housing),
+      cmocka_unit_test(test_injection),    cmocka_unit_test(test_housing),
   };
   return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
 }
