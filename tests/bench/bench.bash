@@ -18,7 +18,7 @@ spend() {
   awk '{ printf "%.2f\n", $1 + $2 }' "$name.time" >"$name.cpu"
   awk '{ print $3 }' "$name.time" >"$name.wall"
   awk -v busy="$((after - before))" -v hz="$(getconf CLK_TCK)" -v cpu="$(cat "$name.cpu")" \
-    -v cores="$(nproc)" '{ o = 100*(busy/hz - cpu)/($3*cores); printf "%.0f\n", o > 0 ? o : 0 }' \
+    -v cores="$(nproc)" '{ o = 100*(busy/hz - cpu)/($3*cores); printf "%.0f\n", (o > 0 ? o : 0) }' \
     "$name.time" >"$name.others"
 }
 
