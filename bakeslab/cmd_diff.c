@@ -72,8 +72,8 @@ static bool compare_samples(int page, const struct slab *a, const struct slab *b
   }
   double rmse = sqrt(squares / (double)count), scale = peak > 0 ? peak : 1;
   int x = (int)(worst % (size_t)slab_width(a)), y = (int)(worst / (size_t)slab_width(a));
-  slab_flux(a, flux_a);
-  slab_flux(b, flux_b);
+  slab_flux_metric(a, flux_a);
+  slab_flux_metric(b, flux_b);
   printf("page %d: rmse %.6g (%.3g of the peak %.6g), largest %.6g (%.3g of the peak) at sample "
          "(%d, %d, %d, %d)\n",
          page + 1, rmse, rmse / scale, peak, largest, largest / scale, x / a->samples[SLAB_S],
@@ -120,15 +120,14 @@ int cmd_diff(int argc, char **argv) {
       .options = option,
       .parser = parse,
       .args_doc = "A B",
-      .doc =
-          "Compares two light slabs page by page: RMSE, largest difference, flux (of the samples "
-          "as they are, in lamp units). Slabs with other frames or numbers of samples differ; "
-          "bakeslab convert brings them together."
-          "\vExit status: 0 same, 1 they differ, 2 trouble.\n"
-          "\n"
-          "Examples:\n"
-          "  bakeslab diff before.tif after.tif\n"
-          "  bakeslab diff --tolerance 0.022 float.exr logluv.tif"};
+      .doc = "Compares two light slabs page by page: RMSE, largest difference, flux (as bakeslab "
+             "info tells it). Slabs with other frames or numbers of samples differ; "
+             "bakeslab convert brings them together."
+             "\vExit status: 0 same, 1 they differ, 2 trouble.\n"
+             "\n"
+             "Examples:\n"
+             "  bakeslab diff before.tif after.tif\n"
+             "  bakeslab diff --tolerance 0.022 float.exr logluv.tif"};
   struct options options = {0};
   argp_parse(&argp, argc, argv, 0, NULL, &options);
   int status = compare(&options);

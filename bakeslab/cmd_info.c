@@ -4,8 +4,8 @@
  *   st_distance, metres_per_unit, radiance_unit, samples_are, provenance,
  *   flux [r, g, b], flux_unit, peak [r, g, b], peak_sample [i, j, k, l],
  *   lowest (the smallest channel value).
- * Flux is in W or lm where the radiance has such a unit, with lengths in
- * metres; relative radiance is integrated over lamp units. */
+ * Flux is in W or lm where the radiance has such a unit, always with lengths in
+ * metres (slab_flux_metric). */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -51,19 +51,10 @@ static json_t *integers(const int *values, size_t count) {
   return array;
 }
 
-static const char *flux_unit(const struct slab *slab) {
-  if (!strcmp(slab->radiance_unit, "W/(sr m2)")) return "W";
-  if (!strcmp(slab->radiance_unit, "cd/m2")) return "lm";
-  return "relative";
-}
-
 /* Flux, peak and lowest value. */
 static void add_figures(json_t *page, const struct slab *slab) {
   double flux[3], peak[3];
-  slab_flux(slab, flux);
-  bool relative = !strcmp(flux_unit(slab), "relative");
-  double area = relative ? 1 : slab->metres_per_unit * slab->metres_per_unit;
-  for (int c = 0; c < 3; ++c) flux[c] *= area;
+  slab_flux_metric(slab, flux);
   const size_t count = slab_sample_count(slab), width = (size_t)slab_width(slab);
   size_t brightest = 0;
   float most = -INFINITY, lowest = INFINITY;
@@ -81,7 +72,7 @@ static void add_figures(json_t *page, const struct slab *slab) {
   const int where[4] = {x / slab->samples[SLAB_S], y / slab->samples[SLAB_T],
                         x % slab->samples[SLAB_S], y % slab->samples[SLAB_T]};
   json_object_set_new(page, "flux", numbers(flux, 3));
-  json_object_set_new(page, "flux_unit", json_string(flux_unit(slab)));
+  json_object_set_new(page, "flux_unit", json_string(slab_flux_unit(slab)));
   json_object_set_new(page, "peak", numbers(peak, 3));
   json_object_set_new(page, "peak_sample", integers(where, 4));
   json_object_set_new(page, "lowest", json_real((double)lowest));
@@ -191,8 +182,8 @@ int cmd_info(int argc, char **argv) {
       .doc =
           "Prints what a light slab is: geometry, samples, flux and peak of each page, and how it "
           "was made: effects, estimated noise and the rest of its provenance. Flux is the "
-          "integral of the interpolated radiance times the cosine, in W or lm where the "
-          "radiance has a unit."
+          "integral of the interpolated radiance times the cosine, with lengths in metres: in "
+          "W or lm where the radiance has a unit."
           "\vExamples:\n"
           "  bakeslab info lamp.tif\n"
           "  bakeslab info --json lamp.tif | jq '.pages[0].flux'"};

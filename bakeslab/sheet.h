@@ -46,7 +46,7 @@ struct sheet_level {
 struct sheet_page {
   struct sheet_level *levels; /* finest first; owned */
   int level_count;
-  double flux[3];  /* in lamp units */
+  double flux[3];  /* at Scale 1, by slab_flux_metric */
   double faintest; /* smallest radiance above zero over the peak */
 };
 
@@ -57,6 +57,7 @@ struct sheet {
   struct slab_picture picture;  /* rows downwards, as files have them */
   int check_left, check_bottom; /* sheet_check_size^2 texels of sheet_check */
   float check[3];               /* 0.25 and two values that differ from sheet to sheet */
+  uint64_t stamp;               /* hash of the image and the frames */
 };
 
 enum { SHEET_CHECK_SIZE = 3, SHEET_RING = 1 };
@@ -84,6 +85,11 @@ double sheet_edge(const struct slab *slab, int axis);
 
 /* sheet_image.c: places the levels' tiles and paints them. */
 enum slab_result sheet_paint(struct sheet *sheet, struct slab_error *error);
+
+/* FNV-1a over 64 bits: the hash of `bytes` after that of what came before; start with
+ * sheet_hash_start. */
+extern const uint64_t sheet_hash_start;
+uint64_t sheet_hash(uint64_t before, const void *bytes, size_t count);
 
 /* sheet_text.c: the include file. The caller checks the stream. */
 void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE *out);

@@ -68,21 +68,44 @@ static void paint_tile(const struct sheet_level *level, int i, int j,
     }
 }
 
+const uint64_t sheet_hash_start = 14695981039346656037u;
+
+uint64_t sheet_hash(uint64_t hash, const void *bytes, size_t count) {
+  const unsigned char *byte = bytes;
+  for (size_t k = 0; k < count; ++k) hash = (hash ^ byte[k]) * 1099511628211u;
+  return hash;
+}
+
+/* What the image and the numbers of the include hold. */
+static uint64_t stamp_of(const struct sheet *sheet) {
+  const struct slab_picture *picture = &sheet->picture;
+  uint64_t hash = sheet_hash(sheet_hash_start, picture->rgb,
+                             3 * sizeof(float) * (size_t)picture->width * (size_t)picture->height);
+  for (int p = 0; p < sheet->page_count; ++p)
+    for (int k = 0; k < sheet->pages[p].level_count; ++k) {
+      const struct sheet_level *level = &sheet->pages[p].levels[k];
+      const struct slab *slab = &level->views;
+      hash = sheet_hash(hash, slab->samples, sizeof slab->samples);
+      hash = sheet_hash(hash, slab->center, sizeof slab->center);
+      hash = sheet_hash(hash, slab->u, sizeof slab->u);
+      hash = sheet_hash(hash, slab->v, sizeof slab->v);
+      hash = sheet_hash(hash, slab->normal, sizeof slab->normal);
+      hash = sheet_hash(hash, slab->st_window, sizeof slab->st_window);
+      hash = sheet_hash(hash, &slab->st_distance, sizeof slab->st_distance);
+      hash = sheet_hash(hash, &level->peak, sizeof level->peak);
+    }
+  return hash;
+}
+
 /* The include looks at these texels before it trusts the image: the first
  * value tells whether POV-Ray changed its gamma, the others whether it is the
  * image that was written together with the include. Both are exact in half. */
 static void paint_check(struct sheet *sheet) {
   struct slab_picture *picture = &sheet->picture;
-  uint32_t hash = 2166136261u; /* FNV-1a */
-  size_t values = 3 * (size_t)picture->width * (size_t)picture->height;
-  for (size_t k = 0; k < values; ++k) {
-    uint32_t bits;
-    memcpy(&bits, &picture->rgb[k], sizeof bits);
-    hash = (hash ^ bits) * 16777619u;
-  }
+  uint64_t hash = sheet->stamp;
   sheet->check[0] = 0.25f;
-  sheet->check[1] = 0.25f + (float)(hash >> 24) / 1024;
-  sheet->check[2] = 0.25f + (float)(hash >> 16 & 0xff) / 1024;
+  sheet->check[1] = 0.25f + (float)(hash >> 56) / 1024;
+  sheet->check[2] = 0.25f + (float)(hash >> 48 & 0xff) / 1024;
   for (int y = 0; y < SHEET_CHECK_SIZE; ++y)
     for (int x = 0; x < SHEET_CHECK_SIZE; ++x)
       memcpy(texel(picture, sheet->check_left + x, sheet->check_bottom + y), sheet->check,
@@ -108,6 +131,7 @@ enum slab_result sheet_paint(struct sheet *sheet, struct slab_error *error) {
       for (int j = 0; j < level->views.samples[SLAB_V]; ++j)
         for (int i = 0; i < level->views.samples[SLAB_U]; ++i) paint_tile(level, i, j, picture);
     }
+  sheet->stamp = stamp_of(sheet);
   paint_check(sheet);
   return SLAB_OK;
 }

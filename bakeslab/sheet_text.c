@@ -1,6 +1,7 @@
 /* sheet_text.c - the include file: what it is, the lamp's numbers, its macros. */
 #include "sheet.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -34,12 +35,6 @@ static void print_string(const char *text, FILE *out) {
 /* In a comment, a control character must not end the line. */
 static void print_comment(const char *text, FILE *out) {
   for (; *text; ++text) putc((unsigned char)*text < ' ' || *text == 0x7f ? '?' : *text, out);
-}
-
-static const char *flux_unit(const struct slab *slab) {
-  if (!strcmp(slab->radiance_unit, "W/(sr m2)")) return "W";
-  if (!strcmp(slab->radiance_unit, "cd/m2")) return "lm";
-  return "(radiance x m2 sr)";
 }
 
 static void print_usage(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
@@ -126,14 +121,13 @@ static void print_table(const struct sheet *sheet, FILE *out) {
   for (int p = 0; p < sheet->page_count; ++p) {
     const struct sheet_page *page = &sheet->pages[p];
     const struct slab *slab = &page->levels[0].views;
-    double area = slab->metres_per_unit * slab->metres_per_unit;
     fprintf(out, "//\n// Page %d: aperture %.6g x %.6g, %d x %d slopes %.4g..%.4g x %.4g..%.4g",
             p + 1, sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V), slab->samples[SLAB_S],
             slab->samples[SLAB_T], slab->st_window[0], slab->st_window[1], slab->st_window[2],
             slab->st_window[3]);
     if (isfinite(slab->st_distance)) fprintf(out, ", st plane at %.6g", slab->st_distance);
     fprintf(out, "\n//   flux at Scale 1, Gain 1: %.4g %.4g %.4g %s (red, green, blue)\n",
-            page->flux[0] * area, page->flux[1] * area, page->flux[2] * area, flux_unit(slab));
+            page->flux[0], page->flux[1], page->flux[2], slab_flux_unit(slab));
     print_faint(page, out);
     fputs("//   error of the irradiance (relative RMSE) in %, on a plane so many aperture\n"
           "//   widths away; height of the sheet; smallest Scale\n"
@@ -254,7 +248,29 @@ static void print_image(const struct sheet *sheet, const struct sheet_text *text
       text->name, out);
 }
 
+/* Only the first of two includes of one name declares it; the second finds out whether
+ * it is the same lamp. */
+static uint64_t stamp_of(const struct sheet *sheet, const struct sheet_text *text) {
+  if (!text->housing) return sheet->stamp;
+  return sheet_hash(sheet->stamp, text->housing, strlen(text->housing));
+}
+
+static void print_guard_end(uint64_t stamp, const char *name, FILE *out) {
+  print_named("\n#version @_Canned_Inc_Temp;\n"
+              "#else\n"
+              "  #if (strcmp(@_Stamp, \"",
+              name, out);
+  fprintf(out, "%016" PRIx64, stamp);
+  print_named("\") != 0)\n"
+              "    #error concat(\"@_Canned: another lamp of this name is included already; \",\n"
+              "      \"make one anew with `bakeslab include --name'\\n\")\n"
+              "  #end\n"
+              "#end\n",
+              name, out);
+}
+
 void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+  const uint64_t stamp = stamp_of(sheet, text);
   int most = 1;
   for (int p = 0; p < sheet->page_count; ++p)
     for (int axis = SLAB_U; axis <= SLAB_V; ++axis) {
@@ -271,6 +287,8 @@ void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE 
               "  #debug \"including ",
               text->name, out);
   fprintf(out, "%s_Canned\\n\"\n#end\n\n", text->name);
+  fprintf(out, "#declare %s_Stamp = \"%016" PRIx64 "\";  // of this lamp's data\n", text->name,
+          stamp);
   print_named("#ifndef(@_Lights) #declare @_Lights = ", text->name, out);
   fprintf(out, "%d; #end\n", most);
   print_named("#ifndef(@_Sheet_File) #declare @_Sheet_File = ", text->name, out);
@@ -289,5 +307,5 @@ void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE 
     print_named("\n#macro @_Canned_Case()\n", text->name, out);
     fprintf(out, "%s\n#end\n", text->housing);
   }
-  print_named("\n#version @_Canned_Inc_Temp;\n#end\n", text->name, out);
+  print_guard_end(stamp, text->name, out);
 }

@@ -217,3 +217,14 @@ out:
   free_rules(&columns);
   free_rules(&rows);
 }
+
+void slab_flux_metric(const struct slab *slab, double rgb[3]) {
+  slab_flux(slab, rgb);
+  for (int c = 0; c < 3; ++c) rgb[c] *= slab->metres_per_unit * slab->metres_per_unit;
+}
+
+const char *slab_flux_unit(const struct slab *slab) {
+  if (!strcmp(slab->radiance_unit, "W/(sr m2)")) return "W";
+  if (!strcmp(slab->radiance_unit, "cd/m2")) return "lm";
+  return "relative m2 sr";
+}

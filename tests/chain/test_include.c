@@ -111,6 +111,26 @@ static void test_image(void **state) {
   slab_free(&slab);
 }
 
+/* Including a lamp twice is fine; another one under its name is not. */
+static void test_two_of_a_name(void **state) {
+  (void)state;
+  struct slab slab = rough_slab();
+  chain_include(&slab, 1, "lamp", "");
+  assert_true(picture_error(&slab, 1,
+                            "#include \"lamp.inc\"\n#include \"lamp.inc\"\n"
+                            "object { Test_Lamp_Canned(1, 1) }") < 5e-4);
+  slab.center[0] += 0.25; /* the image is the same */
+  chain_include(&slab, 1, "moved", "");
+  expect_stop(&slab, "#include \"lamp.inc\"\n#include \"moved.inc\"",
+              "Test_Lamp_Canned: another lamp of this name is included already; make one anew "
+              "with `bakeslab include --name'");
+  chain_include(&slab, 1, "moved", "--name other");
+  assert_true(picture_error(&slab, 1,
+                            "#include \"lamp.inc\"\n#include \"moved.inc\"\n"
+                            "object { Other_Canned(1, 1) }") < 5e-4);
+  slab_free(&slab);
+}
+
 /* With another assumed_gamma the lamp keeps its radiance in the numbers that
  * POV-Ray computes with, which the picture then decodes. */
 static void test_gamma(void **state) {
@@ -326,12 +346,13 @@ static void test_housing(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tolerance),    cmocka_unit_test(test_macro_arguments),
-      cmocka_unit_test(test_image),        cmocka_unit_test(test_gamma),
-      cmocka_unit_test(test_command_line), cmocka_unit_test(test_own_slab),
-      cmocka_unit_test(test_radiance),     cmocka_unit_test(test_name),
-      cmocka_unit_test(test_unseen),       cmocka_unit_test(test_saturated),
-      cmocka_unit_test(test_injection),    cmocka_unit_test(test_housing),
+      cmocka_unit_test(test_tolerance), cmocka_unit_test(test_macro_arguments),
+      cmocka_unit_test(test_image),     cmocka_unit_test(test_two_of_a_name),
+      cmocka_unit_test(test_gamma),     cmocka_unit_test(test_command_line),
+      cmocka_unit_test(test_own_slab),  cmocka_unit_test(test_radiance),
+      cmocka_unit_test(test_name),      cmocka_unit_test(test_unseen),
+      cmocka_unit_test(test_saturated), cmocka_unit_test(test_injection),
+      cmocka_unit_test(test_housing),
   };
   return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
 }

@@ -32,6 +32,15 @@ setup() {
   [[ $output == *'"flux_unit": "W"'* ]]
 }
 
+@test "info and the include tell the same flux, with lengths in metres" {
+  raw_slab small.tif '[1, 1, 4, 4]' 4 4 ', "name": "small", "metres_per_unit": 0.01' "$one" "$one" "$one"
+  "$BAKESLAB" include small.tif -o small.inc
+  told=$(sed -n 's,.*flux at Scale 1\, Gain 1: \([0-9.e-]*\) .*,\1,p' small.inc)
+  flux=$("$BAKESLAB" info --json small.tif | tr -d ' \n' | sed 's/.*"flux":\[\([0-9.e-]*\),.*/\1/')
+  awk -v t="$told" -v f="$flux" 'BEGIN { c = atan2(1, sqrt(2)) / sqrt(2); e = 0.04 * 4 * c * 1e-4
+    exit !(t/e - 1 < 1e-3 && 1 - t/e < 1e-3 && f/e - 1 < 1e-6 && 1 - f/e < 1e-6) }'
+}
+
 @test "lookup answers rays, in order, outside with zeros" {
   run --separate-stderr "$BAKESLAB" lookup a.tif <<'END'
 # i=0: a=-0.05; k=1: s=0.5; any point of the ray will do

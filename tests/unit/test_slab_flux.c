@@ -36,6 +36,25 @@ static void test_constant_infinite(void **state) {
     }
 }
 
+/* Whatever the unit of radiance, people read of metres. */
+static void test_metric(void **state) {
+  (void)state;
+  static const char *const units[3][2] = {
+      {"W/(sr m2)", "W"}, {"cd/m2", "lm"}, {"relative", "relative m2 sr"}};
+  struct slab slab = awkward_slab((const int[]){2, 2, 3, 3}, INFINITY);
+  double flux[3], metric[3];
+  fill_colours(&slab, 3);
+  slab.metres_per_unit = 0.01;
+  slab_flux(&slab, flux);
+  for (int k = 0; k < 3; ++k) {
+    strcpy(slab.radiance_unit, units[k][0]);
+    slab_flux_metric(&slab, metric);
+    assert_string_equal(slab_flux_unit(&slab), units[k][1]);
+    for (int c = 0; c < 3; ++c) assert_near(metric[c] / flux[c], 1e-4, 1e-18);
+  }
+  slab_free(&slab);
+}
+
 /* The hemisphere: pi times the area. */
 static void test_hemisphere(void **state) {
   (void)state;
@@ -231,6 +250,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_constant_infinite),
       cmocka_unit_test(test_hemisphere),
+      cmocka_unit_test(test_metric),
       cmocka_unit_test(test_constant_finite),
       cmocka_unit_test(test_against_lookup),
       cmocka_unit_test(test_superposition),
