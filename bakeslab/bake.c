@@ -69,12 +69,16 @@ static enum slab_result choose_form(const struct bake_options *options, const st
   return SLAB_OK;
 }
 
+static bool is_adaptive(const struct bake_options *options) {
+  return !options->uniform && options->rays > PILOT;
+}
+
 /* Renders and sums. A shard needs the whole pilot's sums to plan by, but renders only its
  * own part of the round after that. */
 static enum slab_result do_rounds(const struct bake_work *work, struct bake_state *state,
                                   struct bake_report *report, struct slab_error *error) {
   const struct bake_options *options = work->options;
-  bool adaptive = !options->uniform && options->rays > PILOT;
+  bool adaptive = is_adaptive(options);
   int passes = adaptive ? PILOT : options->rays;
   int tiles = bake_tile_count(&state->tiles);
   enum slab_result result =
@@ -243,7 +247,9 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
   if (!result) {
     work.slabs = state.lamp.slabs;
     work.look.defect_rows = state.lamp.defect_rows;
-    work.look.centre = options->centre;
+    work.look.offsets = options->centre        ? BAKE_CENTRE
+                        : is_adaptive(options) ? BAKE_OWN
+                                               : BAKE_SHARED;
     work.look.gain = choose_gain(options, state.lamp.peak);
     work.look.effects = &state.effects;
     result = do_rounds(&work, &state, report, error);

@@ -30,18 +30,31 @@ static void direction_numbers(int axis, uint32_t v[BITS]) {
   }
 }
 
+/* A camera's own digital shift along an axis: a hash (splitmix64) of its place. */
+static uint32_t own_shift(const struct bake_box *box, int axis) {
+  bool view = box->size[SLAB_U] == 1 && box->size[SLAB_V] == 1;
+  uint64_t x = (uint64_t)(view ? box->first[SLAB_U] : box->first[SLAB_S]);
+  uint64_t y = (uint64_t)(view ? box->first[SLAB_V] : box->first[SLAB_T]);
+  uint64_t z = ((uint64_t)box->page * 4 + (uint64_t)axis) << 48 ^ y << 24 ^ x;
+  z += 0x9e3779b97f4a7c15;
+  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+  z = (z ^ z >> 27) * 0x94d049bb133111eb;
+  return (uint32_t)((z ^ z >> 31) >> 32);
+}
+
 /* Sobol's sequence: of 2^m points each of 2^m equal slices of the cell holds one, along
- * every axis, which matters since a lamp's bars and edges lie along the axes, in step
- * with the cells. The shift 0.010101... keeps the points a third away from the ends of
- * their slices for every m, so that the mirrored ones fill the gaps. */
-void bake_offset(int pass, bool centre, double offset[SLAB_AXES]) {
+ * every axis, which matters since a lamp's bars and edges lie along the axes. The common
+ * shift 0.010101... keeps the points a third away from the ends of their slices for every
+ * m, so that the mirrored ones fill the gaps. */
+void bake_offset(enum bake_offsets kind, const struct bake_box *box, int pass,
+                 double offset[SLAB_AXES]) {
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
-    uint32_t v[BITS], bits = 0x55555555;
+    uint32_t v[BITS], bits = kind == BAKE_OWN ? own_shift(box, axis) : 0x55555555;
     direction_numbers(axis, v);
     for (int n = 0; n < BITS; ++n)
       if ((uint32_t)pass / 2 >> n & 1) bits ^= v[n];
     double from_middle = ((double)bits + 0.5) * 0x1p-32 - 0.5;
-    offset[axis] = centre ? 0 : pass % 2 ? -from_middle : from_middle;
+    offset[axis] = kind == BAKE_CENTRE ? 0 : pass % 2 ? -from_middle : from_middle;
   }
 }
 

@@ -2,9 +2,9 @@
  * cells, and the camera that shoots a box of them.
  *
  * A sample is the mean of the radiance over its 4D cell, taken by passes; a pass
- * shoots one ray a sample with one offset from the cell's centre for all. Offsets
- * follow a low-discrepancy sequence and come in antithetic pairs: passes 2q and
- * 2q+1 are mirror images, so that a radiance linear over the cell comes out exact. */
+ * shoots one ray a sample, off the cell's centre by a point of a low-discrepancy
+ * sequence. Offsets come in antithetic pairs: passes 2q and 2q+1 are mirror images, so
+ * that a radiance linear over the cell comes out exact. */
 #ifndef BAKE_RAYS_H
 #define BAKE_RAYS_H
 
@@ -20,8 +20,16 @@ struct bake_box {
 
 int bake_box_rays(const struct bake_box *box);
 
-/* The offset of a pass in cells, each in (-1/2, 1/2); zero where `centre`. */
-void bake_offset(int pass, bool centre, double offset[SLAB_AXES]);
+/* Where a pass puts its rays. SHARED: all samples have the same offset, so that positions
+ * and directions stay on grids and every form of camera shoots the same rays. OWN: each
+ * camera shifts the sequence for itself; where tiles stop after few passes, what these
+ * missed then differs from view to view and evens out, rather than adding up where a
+ * lamp's parts lie in step with the cells. */
+enum bake_offsets { BAKE_CENTRE, BAKE_SHARED, BAKE_OWN };
+
+/* The offset of a box's rays in a pass, in cells, each in (-1/2, 1/2). */
+void bake_offset(enum bake_offsets kind, const struct bake_box *box, int pass,
+                 double offset[SLAB_AXES]);
 
 /* The camera of a box: pixel x of 0..width-1 and y of 0..height-1 (row 0 on top)
  * look from `origin` (or, orthographic, from origin + x, y along across and down)

@@ -95,7 +95,7 @@ static void unit_camera(const struct bake_look *look, const struct slab *slabs,
                         const struct bake_round *round, size_t unit, struct bake_camera *camera) {
   double offset[SLAB_AXES];
   const struct bake_box *box = unit_box(round, unit);
-  bake_offset(round->units[unit].pass, look->centre, offset);
+  bake_offset(look->offsets, box, round->units[unit].pass, offset);
   const struct slab *slab = &slabs[box->page];
   bake_camera(slab, box, offset, camera);
   if (look->gain != 1) /* backwards along its middle ray */

@@ -11,8 +11,8 @@
 struct bake_look {
   enum bake_form form;
   int defect_rows; /* image rows that mesh_camera wastes */
-  bool centre;     /* no offsets: rays through the samples' centres */
-  double gain;     /* power of two by which the picture is brighter than the lamp */
+  enum bake_offsets offsets;
+  double gain; /* power of two by which the picture is brighter than the lamp */
   const struct effects *effects;
 };
 

@@ -41,7 +41,7 @@ static const struct argp_option options[] = {
      "its 4D cell; 4 rays are shot everywhere, the rest where those were noisy",
      2},
     {"rays-max", OPTION_RAYS_MAX, "K", 0, "rays for the noisiest samples (default 4 x --rays)", 2},
-    {"uniform", OPTION_UNIFORM, 0, 0, "the same number of rays everywhere", 2},
+    {"uniform", OPTION_UNIFORM, 0, 0, "the same rays for all samples, as many everywhere", 2},
     {"centre", OPTION_CENTRE, 0, 0,
      "one ray through each sample's centre, the plain algorithm: fast, but fine parts of a lamp "
      "alias",
@@ -75,9 +75,10 @@ static const char doc[] =
     "Finished batches are kept in SLAB.partial until the slab is written: after Ctrl-C, a crash "
     "or a full disk the same command goes on from them.\n"
     "\n"
-    "The samples are the same, bit for bit, for any --jobs, --shard and --camera; with "
-    "interreflection for any --jobs and --shard only, since each batch gathers light for "
-    "itself and --camera lays out other batches.\n"
+    "The samples are the same, bit for bit, for any --jobs and --shard. They are the same for "
+    "any --camera too with --uniform or --centre; otherwise each view (or, transposed, each "
+    "direction) shifts its rays for itself, so that mesh and perspective agree. With "
+    "interreflection each batch gathers light for itself, and --camera lays out other batches.\n"
     "\n"
     "A lamp script is a program: POV-Ray runs it with your rights.\n"
     "\n"

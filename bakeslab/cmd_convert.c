@@ -108,7 +108,8 @@ static enum slab_result convert_page(const struct options *options, struct slab 
     if (result == SLAB_OK) replace(slab, &other);
   }
   if (result == SLAB_OK)
-    result = slab_json_record(slab, cli_command_line(), "bakeslab " BAKESLAB_VERSION, error);
+    result = slab_json_record(slab, cli_command_line(), "bakeslab " BAKESLAB_VERSION,
+                              crop || resample, error);
   return result;
 }
 

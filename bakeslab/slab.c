@@ -78,14 +78,16 @@ static enum slab_result check_frame(const struct slab *slab, struct slab_error *
     if (fabs(dot(unit[k], unit[other])) > frame_tolerance)
       return slab_fail(error, SLAB_BAD, "%s and %s are not perpendicular", names[k], names[other]);
   }
+  double area = length(slab->u) * length(slab->v);
+  if (!(area > 0) || !isfinite(area))
+    return slab_fail(error, SLAB_BAD, "u and v span the area %g, must be positive and finite",
+                     area);
   return SLAB_OK;
 }
 
-enum slab_result slab_check(const struct slab *slab, struct slab_error *error) {
-  enum slab_result result = check_samples(slab, error);
-  if (result == SLAB_OK) result = check_frame(slab, error);
-  if (result != SLAB_OK) return result;
-  const double *w = slab->st_window;
+/* Window, distance and unit of length; all that is computed of them is finite. */
+static enum slab_result check_window(const struct slab *slab, struct slab_error *error) {
+  const double *w = slab->st_window, unit = slab->metres_per_unit;
   for (int k = 0; k < 4; ++k)
     if (!isfinite(w[k])) return slab_fail(error, SLAB_BAD, "st_window is not finite");
   if (!(w[1] > w[0]) || !(w[3] > w[2]) || !isfinite(w[1] - w[0]) || !isfinite(w[3] - w[2]))
@@ -94,9 +96,23 @@ enum slab_result slab_check(const struct slab *slab, struct slab_error *error) {
   if (!(slab->st_distance > 0))
     return slab_fail(error, SLAB_BAD, "st_distance is %g, must be positive or null",
                      slab->st_distance);
-  if (!(slab->metres_per_unit > 0) || !isfinite(slab->metres_per_unit))
-    return slab_fail(error, SLAB_BAD, "metres_per_unit is %g, must be positive",
-                     slab->metres_per_unit);
+  if (!isfinite(slab_kappa(slab) * length(slab->u)) ||
+      !isfinite(slab_kappa(slab) * length(slab->v)) || !isfinite(slab_kappa(slab)))
+    return slab_fail(error, SLAB_BAD, "st_distance %g is too small to divide by",
+                     slab->st_distance);
+  if (!(unit > 0) || !isfinite(unit))
+    return slab_fail(error, SLAB_BAD, "metres_per_unit is %g, must be positive", unit);
+  if (!(unit * unit > 0) || !isfinite(unit * unit * length(slab->u) * length(slab->v)))
+    return slab_fail(error, SLAB_BAD, "metres_per_unit %g is too small or too large to square",
+                     unit);
+  return SLAB_OK;
+}
+
+enum slab_result slab_check(const struct slab *slab, struct slab_error *error) {
+  enum slab_result result = check_samples(slab, error);
+  if (result == SLAB_OK) result = check_frame(slab, error);
+  if (result == SLAB_OK) result = check_window(slab, error);
+  if (result != SLAB_OK) return result;
   static const char *const units[] = {"W/(sr m2)", "cd/m2", "relative"};
   for (size_t k = 0; k < sizeof units / sizeof *units; ++k)
     if (!strcmp(slab->radiance_unit, units[k])) return SLAB_OK;

@@ -277,7 +277,8 @@ static json_t *string(const char *text) {
 }
 
 enum slab_result slab_json_record(struct slab *slab, const char *command, const char *tool,
-                                  struct slab_error *error) {
+                                  bool changed, struct slab_error *error) {
+  static const char *const of_samples[] = {"rays", "noise"};
   json_t *root = NULL;
   enum slab_result result = load_object(slab, &root, error);
   if (result != SLAB_OK) return result;
@@ -289,6 +290,10 @@ enum slab_result slab_json_record(struct slab *slab, const char *command, const 
     json_t *step = json_object();
     json_object_set(step, "command", json_object_get(old, "command"));
     json_object_set(step, "tool", json_object_get(old, "tool"));
+    for (size_t k = 0; changed && k < sizeof of_samples / sizeof *of_samples; ++k) {
+      json_object_set(step, of_samples[k], json_object_get(old, of_samples[k]));
+      json_object_del(fresh, of_samples[k]);
+    }
     json_array_append_new(history, step);
   } else if (old) {
     json_array_append(history, old);

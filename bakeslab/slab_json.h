@@ -37,9 +37,11 @@ char *slab_json_get_string(const struct slab *slab, const char *key, const char 
 
 /* Records in "provenance" that `command` of `tool` made the slab. The command
  * and tool before go to the end of its array "history"; its other keys stay,
- * since they still describe the light. */
+ * since they still describe the light. Where the samples were `changed`, as by
+ * resampling, what is known of how well each was taken, "rays" and "noise",
+ * goes to the history too. */
 enum slab_result slab_json_record(struct slab *slab, const char *command, const char *tool,
-                                  struct slab_error *error);
+                                  bool changed, struct slab_error *error);
 
 #ifdef __cplusplus
 }

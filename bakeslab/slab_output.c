@@ -17,6 +17,9 @@ enum slab_result slab_output_begin(struct slab_output *output, const char *path,
     if (!S_ISREG(status.st_mode))
       return slab_fail(error, SLAB_IO, "%s: exists and is not a regular file", path);
     output->target = realpath(path, NULL);
+  } else if (lstat(path, &status) == 0) {
+    return slab_fail(error, SLAB_IO,
+                     "%s: is a link to what is not there; remove it or make its target", path);
   } else {
     output->target = strdup(path);
   }

@@ -19,7 +19,7 @@ struct slab_output {
 };
 
 /* Creates the temporary file. The target may exist if it is a regular file
- * (through symbolic links, which are kept). */
+ * (through symbolic links, which are kept); a link to nothing is refused. */
 enum slab_result slab_output_begin(struct slab_output *output, const char *path,
                                    struct slab_error *error);
 
