@@ -49,7 +49,7 @@ static uint32_t own_shift(const struct bake_box *box, int axis) {
 void bake_offset(enum bake_offsets kind, const struct bake_box *box, int pass,
                  double offset[SLAB_AXES]) {
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
-    uint32_t v[BITS], bits = kind == BAKE_OWN ? own_shift(box, axis) : 0x55555555;
+    uint32_t v[BITS] = {0}, bits = kind == BAKE_OWN ? own_shift(box, axis) : 0x55555555;
     direction_numbers(axis, v);
     for (int n = 0; n < BITS; ++n)
       if ((uint32_t)pass / 2 >> n & 1) bits ^= v[n];

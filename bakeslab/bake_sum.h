@@ -2,9 +2,9 @@
  *
  * POV-Ray's pixels are half floats: sums of them are exact in double precision, so
  * that their order does not matter. Batches must come in order all the same, since sums
- * of squares are rounded. Noise is estimated from the scatter of the pairs' means, as if
- * their offsets were random; they fill the cell more evenly than that, so that the
- * estimate is an upper one. */
+ * of squares are rounded. Noise is estimated from the scatter of the pairs' means as if
+ * their offsets were random. They fill the cell more evenly than that, so the estimate is
+ * on the high side; from the two pairs of four rays it is a rough one either way. */
 #ifndef BAKE_SUM_H
 #define BAKE_SUM_H
 

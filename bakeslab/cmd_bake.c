@@ -138,15 +138,11 @@ static double parse_gain(struct argp_state *state, const char *text) {
   return gain;
 }
 
-static error_t parse_option(int key, char *text, struct argp_state *state) {
+/* Options that say what to bake. */
+static error_t parse_samples(int key, char *text, struct argp_state *state,
+                             struct bake_options *bake) {
   static const char *const precisions[] = {"", "logluv", "float", "half", NULL};
-  static const char *const cameras[] = {"mesh", "perspective", "transposed", NULL};
-  struct arguments *arguments = state->input;
-  struct bake_options *bake = &arguments->bake;
   switch (key) {
-  case 'o':
-    bake->output = text;
-    return 0;
   case OPTION_UV:
     parse_size(state, "--uv", text, bake->uv);
     return 0;
@@ -171,6 +167,16 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case OPTION_EFFECTS:
     bake->effects = text;
     return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* Options that say how. */
+static error_t parse_means(int key, char *text, struct argp_state *state,
+                           struct bake_options *bake) {
+  static const char *const cameras[] = {"mesh", "perspective", "transposed", NULL};
+  switch (key) {
   case OPTION_GAIN:
     bake->gain = parse_gain(state, text);
     return 0;
@@ -186,12 +192,24 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case OPTION_POVRAY:
     bake->povray = text;
     return 0;
+  case 'q':
+    bake->quiet = true;
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static error_t parse_option(int key, char *text, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  struct bake_options *bake = &arguments->bake;
+  switch (key) {
+  case 'o':
+    bake->output = text;
+    return 0;
   case 'L':
     if (arguments->library_count == LAMP_MAX_LIBRARIES) argp_error(state, "too many -L");
     arguments->libraries[arguments->library_count++] = text;
-    return 0;
-  case 'q':
-    bake->quiet = true;
     return 0;
   case ARGP_KEY_ARG:
     if (bake->lamp) argp_error(state, "%s: one lamp script at a time", text);
@@ -202,7 +220,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (!bake->output) argp_error(state, "give -o SLAB");
     return 0;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return parse_samples(key, text, state, bake) == 0 ? 0 : parse_means(key, text, state, bake);
   }
 }
 

@@ -94,9 +94,9 @@ static enum slab_result convert_page(const struct options *options, struct slab 
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     first[axis] = options->end[axis] ? options->first[axis] : 0;
     end[axis] = options->end[axis] ? options->end[axis] : slab->samples[axis];
-    crop |= options->end[axis] != 0;
+    crop |= first[axis] != 0 || end[axis] != slab->samples[axis];
     samples[axis] = options->samples[axis] ? options->samples[axis] : end[axis] - first[axis];
-    resample |= options->samples[axis] != 0;
+    resample |= samples[axis] != end[axis] - first[axis];
   }
   struct slab other = {0};
   if (crop) {

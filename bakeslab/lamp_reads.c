@@ -75,7 +75,7 @@ enum slab_result lamp_reads_collect(const char *directory, const char *script, c
   char *text = files_read(directory, "reads.txt");
   enum slab_result result = own ? SLAB_OK : slab_fail(error, SLAB_MEMORY, "out of memory");
   char *rest = text;
-  for (char *path; !result && rest && *rest && (path = strsep(&rest, "\n"));)
+  for (char *path; own && !result && rest && *rest && (path = strsep(&rest, "\n"));)
     if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&
         !has_path(reads, path))
       result = add_path(reads, path, error);

@@ -193,6 +193,22 @@ static void on_plane(struct slab *slab) {
 static void no_distance(struct slab *slab) {
   slab->st_distance = NAN;
 }
+static void tiny_distance(struct slab *slab) {
+  slab->st_distance = 1e-320;
+}
+static void tiny_share(struct slab *slab) { /* 1/D alone is finite */
+  slab->st_distance = 1e-300;
+  for (int c = 0; c < 3; ++c) slab->u[c] *= 1e20;
+}
+static void huge_unit(struct slab *slab) {
+  slab->metres_per_unit = 1e200;
+}
+static void tiny_unit(struct slab *slab) {
+  slab->metres_per_unit = 1e-200;
+}
+static void huge_area(struct slab *slab) {
+  for (int c = 0; c < 3; ++c) slab->u[c] *= 1e160, slab->v[c] *= 1e160;
+}
 static void no_unit(struct slab *slab) {
   slab->metres_per_unit = 0;
 }
@@ -216,6 +232,11 @@ static void test_refusals(void **state) {
   refuse(behind, "st_distance");
   refuse(on_plane, "st_distance");
   refuse(no_distance, "st_distance");
+  refuse(tiny_distance, "too small to divide by");
+  refuse(tiny_share, "too small to divide by");
+  refuse(huge_unit, "too large to square");
+  refuse(tiny_unit, "too small");
+  refuse(huge_area, "span the area");
   refuse(no_unit, "metres_per_unit");
   refuse(other_unit, "radiance_unit");
 }

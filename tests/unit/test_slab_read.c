@@ -147,6 +147,9 @@ static void test_logluv(void **state) {
   }
 }
 
+#define TEN "1234567890"
+#define LONG_NAME TEN TEN TEN TEN TEN TEN TEN TEN TEN TEN TEN TEN "12345678" /* 128 bytes */
+
 static void refuse_text(const char *text, const char *why) {
   struct raw_tiff page = plain_tiff();
   struct raw_exr part = plain_exr();
@@ -198,6 +201,10 @@ static void test_refused_descriptions(void **state) {
   refuse_text(DESCRIPTION(V1, S, F, ", \"st_window\": [1, 1, -1, 1]"), "is empty");
   refuse_text(DESCRIPTION(V1, S, F, ", \"st_window\": [-1, 1, 1, -1]"), "is empty");
   refuse_text(DESCRIPTION(V1, S, F, W ", \"st_distance\": 0"), "st_distance");
+  refuse_text(DESCRIPTION(V1, S, F, W ", \"st_distance\": 1e-320"), "too small to divide by");
+  refuse_text(DESCRIPTION(V1, S, F, W ", \"name\": \"" LONG_NAME "\""),
+              "\"name\" is longer than 127 bytes");
+  refuse_text(DESCRIPTION(V1, S, F, W ", \"name\": \"a\\u0000b\""), "JSON");
   refuse_text(DESCRIPTION(V1, S, F, W ", \"st_distance\": \"far\""), "\"st_distance\" must be");
   refuse_text(DESCRIPTION(V1, S, F, W ", \"radiance_unit\": \"nit\""), "radiance_unit");
   refuse_text(DESCRIPTION(V1, S, F, W ", \"metres_per_unit\": -1"), "metres_per_unit");

@@ -254,8 +254,8 @@ static void test_provenance(void **state) {
                           "{\"command\": \"one\", \"tool\": \"t1\", \"effects\": {\"gloss\": 1}}",
                           &error),
             &error);
-  assert_ok(slab_json_record(&slab, "two", "t2", &error), &error);
-  assert_ok(slab_json_record(&slab, "three", "t3", &error), &error);
+  assert_ok(slab_json_record(&slab, "two", "t2", false, &error), &error);
+  assert_ok(slab_json_record(&slab, "three", "t3", false, &error), &error);
   char *text = slab_json_get(&slab, "provenance");
   assert_string_equal(text,
                       "{\"command\": \"three\", \"tool\": \"t3\", \"effects\": {\"gloss\": 1}, "
@@ -263,6 +263,49 @@ static void test_provenance(void **state) {
                       "{\"command\": \"two\", \"tool\": \"t2\"}]}");
   free(text);
   assert_refused(slab_json_set(&slab, "provenance", "{", &error), &error, "malformed", NULL);
+  slab_free(&slab);
+}
+
+/* Resampling makes other samples of them: what was known of the old ones is history. */
+static void test_provenance_of_changed(void **state) {
+  (void)state;
+  struct slab slab = awkward_slab((const int[]){1, 1, 1, 1}, 1);
+  struct slab_error error = {{0}};
+  assert_ok(slab_json_set(&slab, "provenance",
+                          "{\"command\": \"one\", \"tool\": \"t1\", \"rays\": 16, \"effects\": "
+                          "{\"gloss\": 1}, \"noise\": {\"flux\": 0.5}}",
+                          &error),
+            &error);
+  for (int changed = 0; changed < 2; ++changed)
+    assert_ok(slab_json_record(&slab, "next", "t", changed, &error), &error);
+  char *text = slab_json_get(&slab, "provenance");
+  assert_string_equal(text, "{\"command\": \"next\", \"tool\": \"t\", \"effects\": {\"gloss\": 1}, "
+                            "\"history\": [{\"command\": \"one\", \"tool\": \"t1\"}, "
+                            "{\"command\": \"next\", \"tool\": \"t\", \"rays\": 16, "
+                            "\"noise\": {\"flux\": 0.5}}]}");
+  free(text);
+  slab_free(&slab);
+}
+
+/* A link is followed, or refused where it leads nowhere. */
+static void test_links(void **state) {
+  (void)state;
+  struct slab slab = awkward_slab((const int[]){1, 1, 2, 2}, 1);
+  struct slab_error error = {{0}};
+  struct stat status;
+  const char *link = scratch("link.exr"), *target = scratch("linked.exr");
+  fill_colours(&slab, 1);
+  assert_int_equal(symlink("linked.exr", link), 0);
+  int before = scratch_entries();
+  assert_refused(slab_file_write(link, &slab, 1, SLAB_PRECISION_FLOAT, &error), &error, link,
+                 "is a link to what is not there", NULL);
+  assert_int_equal(scratch_entries(), before);
+  write_bytes(target, "x", 1);
+  assert_ok(slab_file_write(link, &slab, 1, SLAB_PRECISION_FLOAT, &error), &error);
+  assert_int_equal(lstat(link, &status), 0);
+  assert_true(S_ISLNK(status.st_mode));
+  assert_int_equal(stat(target, &status), 0);
+  assert_true(status.st_size > 1);
   slab_free(&slab);
 }
 
@@ -414,6 +457,7 @@ static void test_exr_chunk_sizes(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_round_trips),           cmocka_unit_test(test_logluv_range),
+      cmocka_unit_test(test_provenance_of_changed), cmocka_unit_test(test_links),
       cmocka_unit_test(test_logluv_saturated),      cmocka_unit_test(test_tiff_as_others_see_it),
       cmocka_unit_test(test_unknown_keys_are_kept), cmocka_unit_test(test_provenance),
       cmocka_unit_test(test_refused_samples),       cmocka_unit_test(test_extremes),
