@@ -207,7 +207,7 @@ static int count_rendering(const struct run *run, double *rays) {
   for (int n = 0; n < run->slots; ++n) {
     struct process *process = &run->processes[n];
     if (process->state == IDLE) continue;
-    double part = povray_progress(process->scratch);
+    double part = povray_progress(&process->job);
     if (part >= 1) process->state = CLOSING;
     rendering += process->state == RENDERING;
     *rays += part * (double)run->round->batches[process->batch].rays;

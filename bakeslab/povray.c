@@ -197,9 +197,9 @@ enum slab_result povray_run(const struct povray *povray, const struct povray_job
   return povray_finish(job, status, error);
 }
 
-double povray_progress(const char *directory) {
-  char path[4200], tail[256];
-  snprintf(path, sizeof path, "%s/log", directory);
+double povray_progress(const struct povray_job *job) {
+  char path[4200], tail[2048];
+  snprintf(path, sizeof path, "%s/log", job->directory);
   int file = open(path, O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;
   off_t end = lseek(file, 0, SEEK_END);
@@ -208,9 +208,12 @@ double povray_progress(const char *directory) {
   close(file);
   if (n <= 0) return 0;
   tail[n] = 0;
+  /* A still counts pixels; an animation counts frames and is done when it ends. */
+  const char *format = job->frames > 1 ? "Rendering frame %lf of %lf" : "Rendered %lf of %lf";
   double done = 0, all = 0, part = 0;
-  for (const char *at = tail; (at = strstr(at, "Rendered ")); ++at)
-    if (sscanf(at, "Rendered %lf of %lf", &done, &all) == 2 && all > 0) part = done / all;
+  for (const char *at = tail; (at = strstr(at, "Render")); ++at)
+    if (sscanf(at, format, &done, &all) == 2 && all > 0)
+      part = (job->frames > 1 ? done - 1 : done) / all;
   return part;
 }
 

@@ -48,8 +48,8 @@ enum slab_result povray_finish(const struct povray_job *job, int status, struct 
 enum slab_result povray_run(const struct povray *povray, const struct povray_job *job,
                             struct slab_error *error);
 
-/* Part of the pixels that a running still has rendered, by its log. */
-double povray_progress(const char *directory);
+/* Part of a running job that is rendered, by its log. */
+double povray_progress(const struct povray_job *job);
 
 /* A count from POV-Ray's statistics, such as "Number of photons shot:"; -1 where
  * the log has no such line. */
