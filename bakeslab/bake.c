@@ -108,7 +108,7 @@ static enum slab_result do_rounds(const struct bake_work *work, struct bake_stat
 
 /* ---- The slab ---- */
 
-static json_t *effects_json(const struct effects *effects) {
+static json_t *effects_json(const struct effects *effects, bool own_radiosity) {
   json_t *object = json_object();
   for (const char *at = effects_all; *(at += strspn(at, " "));) {
     char word[32];
@@ -116,6 +116,7 @@ static json_t *effects_json(const struct effects *effects) {
     json_object_set_new(object, word, json_string(effects_has(effects, word) ? "on" : "off"));
     at += strlen(word);
   }
+  if (own_radiosity) json_object_set_new(object, "interreflection", json_string("by the script"));
   return object;
 }
 

@@ -13,15 +13,28 @@ enum { MAX_SIZE = 65536 };
 
 static char *command_line;
 
-void cli_complain(const char *format, ...) {
+static bool quiet;
+
+static void say(const char *format, va_list arguments) {
   char text[4096];
+  vsnprintf(text, sizeof text, format, arguments);
+  slab_one_line(text);
+  fprintf(stderr, "bakeslab: %s\n", text);
+}
+
+void cli_complain(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
+  say(format, arguments);
   va_end(arguments);
-  for (char *c = text; *c; ++c)
-    if (*c == '\n' || *c == '\r') *c = ' ';
-  fprintf(stderr, "bakeslab: %s\n", text);
+}
+
+void cli_note(const char *format, ...) {
+  va_list arguments;
+  if (quiet) return;
+  va_start(arguments, format);
+  say(format, arguments);
+  va_end(arguments);
 }
 
 int cli_fail(const struct slab_error *error) {
@@ -53,6 +66,50 @@ bool cli_parse_size(const char *text, int size[2]) {
   size[1] = m;
   return true;
 }
+
+static const char *const precision_names[] = {[SLAB_PRECISION_LOGLUV] = "logluv",
+                                              [SLAB_PRECISION_FLOAT] = "float",
+                                              [SLAB_PRECISION_HALF] = "half"};
+enum { PRECISIONS = sizeof precision_names / sizeof *precision_names };
+
+bool cli_parse_precision(const char *text, enum slab_precision *precision) {
+  for (int k = 0; k < PRECISIONS; ++k)
+    if (precision_names[k] && !strcmp(text, precision_names[k])) {
+      *precision = (enum slab_precision)k;
+      return true;
+    }
+  return false;
+}
+
+const char *cli_precision_name(enum slab_precision precision) {
+  return precision_names[precision] ? precision_names[precision] : "default";
+}
+
+error_t cli_parse_slab(int key, char *argument, struct argp_state *state, const char **path) {
+  switch (key) {
+  case ARGP_KEY_ARG:
+    if (*path) argp_error(state, "%s: one slab at a time", argument);
+    *path = argument;
+    return 0;
+  case ARGP_KEY_END:
+    if (!*path) argp_error(state, "no slab given");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static error_t parse_common(int key, char *argument, struct argp_state *state) {
+  (void)argument, (void)state;
+  if (key != 'q') return ARGP_ERR_UNKNOWN;
+  quiet = true;
+  return 0;
+}
+
+static const struct argp_option common_options[] = {
+    {"quiet", 'q', NULL, 0, "No notes and no progress on stderr; errors are still told", 0}, {0}};
+static const struct argp common = {.options = common_options, .parser = parse_common};
+const struct argp_child cli_options[] = {{&common, 0, NULL, 0}, {0}};
 
 static bool needs_quotes(const char *word) {
   static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"

@@ -9,7 +9,7 @@
 #include <argp.h>
 #include <stdbool.h>
 
-#include "slab_error.h"
+#include "slab_file.h"
 
 #define BAKESLAB_VERSION "0.1.0"
 
@@ -31,6 +31,20 @@ int cli_fail(const struct slab_error *error);
 
 /* Parses "NxM" (or "N" for NxN), both at least 1 and at most 65536. */
 bool cli_parse_size(const char *text, int size[2]);
+
+/* "logluv", "float" or "half", and back. */
+bool cli_parse_precision(const char *text, enum slab_precision *precision);
+const char *cli_precision_name(enum slab_precision precision);
+
+/* For argp: takes exactly one argument, a slab, into *path, and complains about none or
+ * more. Call it for keys that are no option of the command. */
+error_t cli_parse_slab(int key, char *argument, struct argp_state *state, const char **path);
+
+/* Options that every command takes: -q. For the `children` of a command's argp. */
+extern const struct argp_child cli_options[];
+
+/* "bakeslab: FILE: note: ..." on stderr, unless -q was given. */
+void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* The command line that is running, quoted for a shell; outputs record it.
  * Set by main, lives as long as the program. */

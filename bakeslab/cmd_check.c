@@ -117,6 +117,7 @@ int cmd_check(int argc, char **argv) {
   static const struct argp argp = {
       .options = option,
       .parser = parse,
+      .children = cli_options,
       .args_doc = "SLAB...",
       .doc = "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
              "standard output, where light is cut off: where the mean radiance of the last samples "

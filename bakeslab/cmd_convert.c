@@ -18,19 +18,6 @@ struct options {
 
 enum { OPTION_PRECISION = 256, OPTION_UV, OPTION_ST, OPTION_CROP };
 
-static enum slab_precision parse_precision(const char *text, struct argp_state *state) {
-  static const struct {
-    const char *name;
-    enum slab_precision precision;
-  } known[] = {{"logluv", SLAB_PRECISION_LOGLUV},
-               {"float", SLAB_PRECISION_FLOAT},
-               {"half", SLAB_PRECISION_HALF}};
-  for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
-    if (!strcmp(text, known[k].name)) return known[k].precision;
-  argp_error(state, "--precision %s: must be logluv, float or half", text);
-  return SLAB_PRECISION_DEFAULT;
-}
-
 static void parse_size(const char *option, const char *text, int *samples,
                        struct argp_state *state) {
   if (!cli_parse_size(text, samples))
@@ -57,7 +44,8 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     options->output = argument;
     return 0;
   case OPTION_PRECISION:
-    options->precision = parse_precision(argument, state);
+    if (!cli_parse_precision(argument, &options->precision))
+      argp_error(state, "--precision %s: must be logluv, float or half", argument);
     return 0;
   case OPTION_UV:
     parse_size("uv", argument, options->samples + SLAB_U, state);
@@ -68,16 +56,11 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
   case OPTION_CROP:
     parse_crop(argument, options, state);
     return 0;
-  case ARGP_KEY_ARG:
-    if (options->input) argp_usage(state);
-    options->input = argument;
-    return 0;
-  case ARGP_KEY_END:
-    if (!options->input) argp_error(state, "no SLAB given");
+  case ARGP_KEY_SUCCESS:
     if (!options->output) argp_error(state, "no output given: -o OUT");
     return 0;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return cli_parse_slab(key, argument, state, &options->input);
   }
 }
 
@@ -131,7 +114,8 @@ static enum slab_result run(const struct options *options, struct slab_error *er
 
 int cmd_convert(int argc, char **argv) {
   static const struct argp_option option[] = {
-      {"output", 'o', "OUT", 0, "The file to write: .tif, .tiff or .exr", 0},
+      {"output", 'o', "OUT", 0,
+       "The file to write: .tif, .tiff or .exr; - writes a TIFF to standard output", 0},
       {"precision", OPTION_PRECISION, "P", 0,
        "logluv (the default for TIFF; 4 bytes), float (the default for EXR) or half", 0},
       {"uv", OPTION_UV, "NxM", 0, "Samples along u and v", 0},
@@ -144,6 +128,7 @@ int cmd_convert(int argc, char **argv) {
   static const struct argp argp = {
       .options = option,
       .parser = parse,
+      .children = cli_options,
       .args_doc = "SLAB -o OUT",
       .doc = "Writes a light slab into another container, or with another precision or resolution. "
              "Fewer samples are means over the new cells, more are interpolated. The command is "
@@ -152,9 +137,11 @@ int cmd_convert(int argc, char **argv) {
              "  bakeslab convert lamp.tif -o lamp.exr\n"
              "  bakeslab convert lamp.tif -o small.tif --uv 8x8 --st 32x32\n"
              "  bakeslab convert lamp.exr -o exact.tif --precision float\n"
-             "  bakeslab convert lamp.tif -o middle.tif --crop st=16:48,16:48"};
+             "  bakeslab convert lamp.tif -o middle.tif --crop st=16:48,16:48\n"
+             "  bakeslab convert lamp.tif -o - --uv 4x4 | bakeslab info -"};
   struct options options = {0};
   struct slab_error error = {{0}};
   argp_parse(&argp, argc, argv, 0, NULL, &options);
-  return run(&options, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
+  int status = run(&options, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
+  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
 }

@@ -71,13 +71,14 @@ static bool compare_samples(int page, const struct slab *a, const struct slab *b
     }
   }
   double rmse = sqrt(squares / (double)count), scale = peak > 0 ? peak : 1;
-  int x = (int)(worst % (size_t)slab_width(a)), y = (int)(worst / (size_t)slab_width(a));
+  int at[SLAB_AXES];
+  slab_locate(a, worst, at);
   slab_flux_metric(a, flux_a);
   slab_flux_metric(b, flux_b);
   printf("page %d: rmse %.6g (%.3g of the peak %.6g), largest %.6g (%.3g of the peak) at sample "
          "(%d, %d, %d, %d)\n",
-         page + 1, rmse, rmse / scale, peak, largest, largest / scale, x / a->samples[SLAB_S],
-         y / a->samples[SLAB_T], x % a->samples[SLAB_S], y % a->samples[SLAB_T]);
+         page + 1, rmse, rmse / scale, peak, largest, largest / scale, at[SLAB_U], at[SLAB_V],
+         at[SLAB_S], at[SLAB_T]);
   printf("page %d: flux %.6g %.6g %.6g and %.6g %.6g %.6g\n", page + 1, flux_a[0], flux_a[1],
          flux_a[2], flux_b[0], flux_b[1], flux_b[2]);
   return largest > tolerance * peak;
@@ -119,6 +120,7 @@ int cmd_diff(int argc, char **argv) {
   static const struct argp argp = {
       .options = option,
       .parser = parse,
+      .children = cli_options,
       .args_doc = "A B",
       .doc = "Compares two light slabs page by page: RMSE, largest difference, flux (as bakeslab "
              "info tells it). Slabs with other frames or numbers of samples differ; "

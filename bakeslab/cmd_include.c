@@ -62,16 +62,11 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
   case 'n':
     arguments->name = value;
     return 0;
-  case ARGP_KEY_ARG:
-    if (arguments->slab) argp_error(state, "%s: one slab at a time", value);
-    arguments->slab = value;
-    return 0;
-  case ARGP_KEY_END:
-    if (!arguments->slab) argp_error(state, "no slab given");
+  case ARGP_KEY_SUCCESS:
     if (!arguments->output) argp_error(state, "no output given; add -o LAMP.inc");
     return 0;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return cli_parse_slab(key, value, state, &arguments->slab);
   }
 }
 
@@ -185,9 +180,9 @@ static enum slab_result include_slab(const struct arguments *arguments, struct s
     housing = slab_json_get_string(&slabs[0], "provenance", "housing");
     int harmless = housing && housing_is_harmless(housing);
     if (housing && !harmless)
-      cli_complain("%s: note: its housing is left out: it is more than an object (directives, or "
-                   "braces that do not match)",
-                   arguments->slab);
+      cli_note("%s: note: its housing is left out: it is more than an object (directives, or "
+               "braces that do not match)",
+               arguments->slab);
     struct sheet_text text = {.name = name,
                               .file = base_name(arguments->output),
                               .image = base_name(image),
@@ -205,8 +200,11 @@ static enum slab_result include_slab(const struct arguments *arguments, struct s
 
 int cmd_include(int argc, char **argv) {
   struct arguments arguments = {0};
-  static const struct argp argp = {options, parse_option, "SLAB -o LAMP.inc", help_text, NULL,
-                                   NULL,    NULL};
+  static const struct argp argp = {.options = options,
+                                   .parser = parse_option,
+                                   .args_doc = "SLAB -o LAMP.inc",
+                                   .doc = help_text,
+                                   .children = cli_options};
   error_t status = argp_parse(&argp, argc, argv, 0, NULL, &arguments);
   if (status != 0) return CLI_USAGE;
   size_t length = strlen(arguments.output);

@@ -27,15 +27,8 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
   case 'j':
     options->json = true;
     return 0;
-  case ARGP_KEY_ARG:
-    if (options->path) argp_usage(state);
-    options->path = argument;
-    return 0;
-  case ARGP_KEY_NO_ARGS:
-    argp_usage(state);
-    return EINVAL;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return cli_parse_slab(key, argument, state, &options->path);
   }
 }
 
@@ -55,7 +48,7 @@ static json_t *integers(const int *values, size_t count) {
 static void add_figures(json_t *page, const struct slab *slab) {
   double flux[3], peak[3];
   slab_flux_metric(slab, flux);
-  const size_t count = slab_sample_count(slab), width = (size_t)slab_width(slab);
+  const size_t count = slab_sample_count(slab);
   size_t brightest = 0;
   float most = -INFINITY, lowest = INFINITY;
   for (size_t k = 0; k < count; ++k)
@@ -68,9 +61,8 @@ static void add_figures(json_t *page, const struct slab *slab) {
       if (value < lowest) lowest = value;
     }
   for (size_t c = 0; c < 3; ++c) peak[c] = (double)slab->rgb[3 * brightest + c];
-  int x = (int)(brightest % width), y = (int)(brightest / width);
-  const int where[4] = {x / slab->samples[SLAB_S], y / slab->samples[SLAB_T],
-                        x % slab->samples[SLAB_S], y % slab->samples[SLAB_T]};
+  int where[SLAB_AXES];
+  slab_locate(slab, brightest, where);
   json_object_set_new(page, "flux", numbers(flux, 3));
   json_object_set_new(page, "flux_unit", json_string(slab_flux_unit(slab)));
   json_object_set_new(page, "peak", numbers(peak, 3));
@@ -86,11 +78,10 @@ static void add_kept(json_t *page, const struct slab *slab, const char *key) {
 }
 
 static json_t *describe(const struct slab *slab, int number, enum slab_precision precision) {
-  static const char *const names[] = {"default", "logluv", "float", "half"};
   json_t *page = json_object();
   json_object_set_new(page, "page", json_integer(number));
   json_object_set_new(page, "name", json_string(slab->name));
-  json_object_set_new(page, "precision", json_string(names[precision]));
+  json_object_set_new(page, "precision", json_string(cli_precision_name(precision)));
   json_object_set_new(page, "samples", integers(slab->samples, SLAB_AXES));
   json_object_set_new(page, "center", numbers(slab->center, 3));
   json_object_set_new(page, "u", numbers(slab->u, 3));
@@ -178,6 +169,7 @@ int cmd_info(int argc, char **argv) {
   static const struct argp argp = {
       .options = option,
       .parser = parse,
+      .children = cli_options,
       .args_doc = "SLAB",
       .doc =
           "Prints what a light slab is: geometry, samples, flux and peak of each page, and how it "

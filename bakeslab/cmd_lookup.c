@@ -25,15 +25,8 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
       argp_error(state, "--page %s: must be a page number, from 1", argument);
     options->page = (int)page;
     return 0;
-  case ARGP_KEY_ARG:
-    if (options->path) argp_usage(state);
-    options->path = argument;
-    return 0;
-  case ARGP_KEY_NO_ARGS:
-    argp_usage(state);
-    return EINVAL;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return cli_parse_slab(key, argument, state, &options->path);
   }
 }
 
@@ -180,6 +173,7 @@ int cmd_lookup(int argc, char **argv) {
   static const struct argp argp = {
       .options = option,
       .parser = parse,
+      .children = cli_options,
       .args_doc = "SLAB",
       .doc = "Reads rays `ox oy oz dx dy dz` in lamp space from standard input, one a line, and "
              "prints the radiance `r g b` that leaves the lamp along each. A ray is a whole line: "

@@ -192,6 +192,7 @@ enum slab_result lamp_probe(const struct povray *povray, const struct lamp_sourc
     if (result) lamp_source_rename(source, error);
     if (result == SLAB_BAD) slab_fail(error, result, "%s: %s", source->script, error->text);
   }
+  lamp->own_radiosity = povray_statistic(directory, "Radiosity samples calculated:") >= 0;
   if (!result) result = read_declarations(source, directory, lamp, error);
   if (!result)
     result = lamp_reads_collect(directory, source->path, source->script, &lamp->reads, error);

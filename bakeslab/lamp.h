@@ -37,6 +37,7 @@ struct lamp {
   char needs[256];         /* of Canned_Needs */
   struct lamp_reads reads; /* every file that the script reads */
   double peak;             /* brightest radiance seen by the probe, any channel */
+  bool own_radiosity;      /* the script turns radiosity on by itself */
   bool mesh_camera;        /* works */
   int defect_rows;         /* image rows to skip: 1 with POV-Ray 3.7's defect */
 };

@@ -168,6 +168,14 @@ float *slab_at(const struct slab *slab, int i, int j, int k, int l) {
   return slab->rgb + 3 * (row * (size_t)slab_width(slab) + column);
 }
 
+void slab_locate(const struct slab *slab, size_t pixel, int at[SLAB_AXES]) {
+  int x = (int)(pixel % (size_t)slab_width(slab)), y = (int)(pixel / (size_t)slab_width(slab));
+  at[SLAB_U] = x / slab->samples[SLAB_S];
+  at[SLAB_S] = x % slab->samples[SLAB_S];
+  at[SLAB_V] = y / slab->samples[SLAB_T];
+  at[SLAB_T] = y % slab->samples[SLAB_T];
+}
+
 /* Lower end and size of an axis. */
 static void axis_range(const struct slab *slab, int axis, double *low, double *size) {
   if (axis == SLAB_U || axis == SLAB_V) {

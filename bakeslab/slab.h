@@ -68,6 +68,9 @@ int slab_height(const struct slab *slab); /* Nv * Nt */
 /* The three floats of one sample. */
 float *slab_at(const struct slab *slab, int i, int j, int k, int l);
 
+/* The (i, j, k, l) of the raster's pixel number `pixel`, row by row. */
+void slab_locate(const struct slab *slab, size_t pixel, int at[SLAB_AXES]);
+
 /* Grid position of sample `index` along an axis: a or b in lamp units from the
  * centre for SLAB_U and SLAB_V, a slope for SLAB_S and SLAB_T. */
 double slab_position(const struct slab *slab, int axis, int index);

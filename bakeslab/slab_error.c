@@ -5,6 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
+void slab_one_line(char *text) {
+  for (; *text; ++text)
+    if (*text == '\n' || *text == '\r') *text = ' ';
+}
+
 enum slab_result slab_fail(struct slab_error *error, enum slab_result result, const char *format,
                            ...) {
   if (error) {
@@ -13,8 +18,7 @@ enum slab_result slab_fail(struct slab_error *error, enum slab_result result, co
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    for (char *c = text; *c; ++c)
-      if (*c == '\n' || *c == '\r') *c = ' ';
+    slab_one_line(text);
     memcpy(error->text, text, sizeof text);
   }
   return result;

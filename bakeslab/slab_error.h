@@ -29,6 +29,9 @@ struct slab_error {
 enum slab_result slab_fail(struct slab_error *error, enum slab_result result, const char *format,
                            ...) __attribute__((format(printf, 3, 4)));
 
+/* Makes one line of a text: line ends become blanks. */
+void slab_one_line(char *text);
+
 #ifdef __cplusplus
 }
 #endif

@@ -221,11 +221,12 @@ static enum slab_result check_finite(const struct slab_file *file, int page,
   while (k < count && isfinite(rgb[k])) ++k;
   if (k == count) return SLAB_OK;
   const struct slab *slab = &file->pages[page];
-  int x = area->x + (int)(k / 3 % (size_t)area->width);
-  int y = area->y + (int)(k / 3 / (size_t)area->width);
+  size_t x = (size_t)area->x + k / 3 % (size_t)area->width;
+  size_t y = (size_t)area->y + k / 3 / (size_t)area->width;
+  int at[SLAB_AXES];
+  slab_locate(slab, y * (size_t)slab_width(slab) + x, at);
   return slab_fail(error, SLAB_BAD, "%s: page %d: sample (%d, %d, %d, %d) is not finite",
-                   file->path, page + 1, x / slab->samples[SLAB_S], y / slab->samples[SLAB_T],
-                   x % slab->samples[SLAB_S], y % slab->samples[SLAB_T]);
+                   file->path, page + 1, at[SLAB_U], at[SLAB_V], at[SLAB_S], at[SLAB_T]);
 }
 
 enum slab_result slab_file_read_view(struct slab_file *file, int page, int i, int j, float *rgb,

@@ -64,15 +64,15 @@ static const char *objection(enum slab_precision precision, const float rgb[3]) 
 
 static enum slab_result check_samples(const char *path, int page, const struct slab *slab,
                                       enum slab_precision precision, struct slab_error *error) {
-  size_t count = slab_sample_count(slab), width = (size_t)slab_width(slab);
+  size_t count = slab_sample_count(slab);
   for (size_t k = 0; k < count; ++k) {
     const float *rgb = slab->rgb + 3 * k;
     const char *why = objection(precision, rgb);
     if (!why) continue;
-    int x = (int)(k % width), y = (int)(k / width);
+    int at[SLAB_AXES];
+    slab_locate(slab, k, at);
     return slab_fail(error, SLAB_BAD, "%s: page %d: sample (%d, %d, %d, %d) = (%g, %g, %g) %s",
-                     path, page + 1, x / slab->samples[SLAB_S], y / slab->samples[SLAB_T],
-                     x % slab->samples[SLAB_S], y % slab->samples[SLAB_T], (double)rgb[0],
+                     path, page + 1, at[SLAB_U], at[SLAB_V], at[SLAB_S], at[SLAB_T], (double)rgb[0],
                      (double)rgb[1], (double)rgb[2], why);
   }
   return SLAB_OK;
@@ -105,7 +105,9 @@ enum slab_result slab_file_write(const char *path, const struct slab *slabs, int
                                  enum slab_precision precision, struct slab_error *error) {
   bool exr;
   struct slab_output output = {0};
-  enum slab_result result = choose(path, &precision, &exr, error);
+  /* Standard output has no name to choose by: a TIFF. */
+  bool piped = !strcmp(path, "-");
+  enum slab_result result = choose(piped ? "stdout.tif" : path, &precision, &exr, error);
   if (result != SLAB_OK) return result;
   if (count < 1) return slab_fail(error, SLAB_BAD, "%s: there are no slabs to write", path);
   struct slab_raster *rasters = calloc((size_t)count, sizeof *rasters);

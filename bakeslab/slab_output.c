@@ -1,4 +1,4 @@
-/* slab_output.c - temporary name, fsync, rename. */
+/* slab_output.c - temporary name, fsync, rename; or a copy to standard output. */
 #include "slab_output.h"
 
 #include <errno.h>
@@ -8,10 +8,44 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* Containers are not written front to back, as a pipe wants it. */
+static enum slab_result begin_stdout(struct slab_output *output, struct slab_error *error) {
+  FILE *file = tmpfile();
+  output->fd = file ? dup(fileno(file)) : -1;
+  int why = errno;
+  if (file) fclose(file);
+  if (output->fd < 0)
+    return slab_fail(error, SLAB_IO, "stdout: no temporary file: %s", strerror(why));
+  output->target = strdup("stdout");
+  if (output->target) return SLAB_OK;
+  slab_output_abandon(output);
+  return slab_fail(error, SLAB_MEMORY, "stdout: out of memory");
+}
+
+static enum slab_result copy_to_stdout(struct slab_output *output, struct slab_error *error) {
+  char buffer[1 << 16];
+  off_t at = 0;
+  for (;;) {
+    ssize_t got = pread(output->fd, buffer, sizeof buffer, at);
+    if (got < 0 && errno == EINTR) continue;
+    if (got == 0) return SLAB_OK;
+    if (got < 0) break;
+    at += got;
+    for (ssize_t done = 0, n; done < got; done += n) {
+      n = write(STDOUT_FILENO, buffer + done, (size_t)(got - done));
+      if (n < 0 && errno != EINTR)
+        return slab_fail(error, SLAB_IO, "stdout: cannot be written: %s", strerror(errno));
+      if (n < 0) n = 0;
+    }
+  }
+  return slab_fail(error, SLAB_IO, "stdout: its temporary file: %s", strerror(errno));
+}
+
 enum slab_result slab_output_begin(struct slab_output *output, const char *path,
                                    struct slab_error *error) {
   memset(output, 0, sizeof *output);
   output->fd = -1;
+  if (!strcmp(path, "-")) return begin_stdout(output, error);
   struct stat status;
   if (stat(path, &status) == 0) {
     if (!S_ISREG(status.st_mode))
@@ -64,6 +98,11 @@ int slab_output_write(struct slab_output *output, const void *bytes, size_t coun
 
 enum slab_result slab_output_commit(struct slab_output *output, struct slab_error *error) {
   enum slab_result result = SLAB_OK;
+  if (!output->temporary) {
+    result = copy_to_stdout(output, error);
+    slab_output_abandon(output);
+    return result;
+  }
   int failed = fsync(output->fd) != 0 && errno != EINVAL;
   int why = errno;
   if (close(output->fd) != 0 && !failed) {
@@ -86,10 +125,8 @@ enum slab_result slab_output_commit(struct slab_output *output, struct slab_erro
 }
 
 void slab_output_abandon(struct slab_output *output) {
-  if (output->temporary) {
-    if (output->fd >= 0) close(output->fd);
-    unlink(output->temporary);
-  }
+  if (output->target && output->fd >= 0) close(output->fd); /* 0 in a zeroed output */
+  if (output->temporary) unlink(output->temporary);
   free(output->temporary);
   free(output->target);
   memset(output, 0, sizeof *output);

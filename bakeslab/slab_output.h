@@ -18,7 +18,8 @@ struct slab_output {
   char *temporary; /* owned; NULL when there is nothing to remove */
 };
 
-/* Creates the temporary file. The target may exist if it is a regular file
+/* Creates the temporary file. The path "-" is standard output, to which an unnamed
+ * temporary file is copied in the end. Any other target may exist if it is a regular file
  * (through symbolic links, which are kept); a link to nothing is refused. */
 enum slab_result slab_output_begin(struct slab_output *output, const char *path,
                                    struct slab_error *error);
