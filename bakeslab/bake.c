@@ -151,11 +151,11 @@ static char *find_housing(const struct bake_work *work, struct bake_report *repo
 static char *provenance_text(const struct bake_work *work, const struct bake_noise *noise,
                              const char *housing) {
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
-  json_t *object =
-      json_pack("{s:o, s:s, s:s, s:o, s:s, s:f, s:f}", "command",
-                command_json(work->options->command), "tool", "bakeslab " BAKESLAB_VERSION,
-                "renderer", work->povray->version, "effects", effects_json(work->look.effects),
-                "camera", forms[work->look.form], "gain", work->look.gain, "rays", noise->rays);
+  json_t *object = json_pack(
+      "{s:o, s:s, s:s, s:o, s:s, s:f, s:f}", "command", command_json(work->options->command),
+      "tool", "bakeslab " BAKESLAB_VERSION, "renderer", work->povray->version, "effects",
+      effects_json(work->look.effects, work->lamp->own_radiosity), "camera", forms[work->look.form],
+      "gain", work->look.gain, "rays", noise->rays);
   if (noise->known)
     json_object_set_new(object, "noise",
                         json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean",
