@@ -52,7 +52,8 @@ enum slab_result slab_file_check_target(const char *path, enum slab_precision pr
                                         struct slab_error *error);
 
 /* Writes all pages, whole or not at all (a temporary name beside the target,
- * then rename). The container follows the name: .tif, .tiff or .exr. */
+ * then rename). The container follows the name: .tif, .tiff or .exr; "-" is a TIFF on
+ * standard output. */
 enum slab_result slab_file_write(const char *path, const struct slab *slabs, int count,
                                  enum slab_precision precision, struct slab_error *error);
 

@@ -107,13 +107,14 @@ enum slab_result slab_file_write(const char *path, const struct slab *slabs, int
   struct slab_output output = {0};
   /* Standard output has no name to choose by: a TIFF. */
   bool piped = !strcmp(path, "-");
+  const char *name = piped ? "stdout" : path;
   enum slab_result result = choose(piped ? "stdout.tif" : path, &precision, &exr, error);
   if (result != SLAB_OK) return result;
-  if (count < 1) return slab_fail(error, SLAB_BAD, "%s: there are no slabs to write", path);
+  if (count < 1) return slab_fail(error, SLAB_BAD, "%s: there are no slabs to write", name);
   struct slab_raster *rasters = calloc((size_t)count, sizeof *rasters);
-  if (!rasters) return slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+  if (!rasters) return slab_fail(error, SLAB_MEMORY, "%s: out of memory", name);
   for (int page = 0; page < count && result == SLAB_OK; ++page)
-    result = describe(path, page, &slabs[page], precision, exr, &rasters[page], error);
+    result = describe(name, page, &slabs[page], precision, exr, &rasters[page], error);
   if (result == SLAB_OK) result = slab_output_begin(&output, path, error);
   if (result == SLAB_OK)
     result = exr ? slab_exr_write_parts(&output, rasters, count, "lightslab", error)

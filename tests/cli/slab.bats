@@ -159,13 +159,14 @@ $line"
 @test "bad files: one line with file, page and reason, by every command" {
   raw_slab nan.tif '[2, 1, 2, 2]' 4 2 '' "$one" "$one" "$one" "$one" 7fc00000 "$one"
   raw_slab wrong.tif '[2, 1, 2, 3]' 4 2 '' "$one"
-  raw_slab new.tif '[2, 1, 2, 2]' 4 2 ', "version": 2' "$one"
+  version=2 raw_slab new.tif '[2, 1, 2, 2]' 4 2 '' "$one"
+  raw_slab twice.tif '[2, 1, 2, 2]' 4 2 ', "version": 1' "$one"
   head -c 300 a.tif >cut.tif
   head -c -1 a.tif >short.tif
   : >empty.tif
   echo "not a slab" >text.tif
   for command in info check lookup "convert -o out.exr" diff; do
-    for bad in nan.tif wrong.tif new.tif cut.tif short.tif empty.tif text.tif none.tif .; do
+    for bad in nan.tif wrong.tif new.tif twice.tif cut.tif short.tif empty.tif text.tif none.tif .; do
       other=
       want=1
       if [ "$command" = diff ]; then other=a.tif want=2; fi
@@ -173,11 +174,18 @@ $line"
       run --separate-stderr "$BAKESLAB" $command $bad $other <<<"0.05 0 0 0 -1 0"
       refused $want "$bad: "
       case $bad in
-      nan.tif) [[ $stderr == *"page 1: sample (0, 0, 1, 0) is not finite"* ]] ;;
-      wrong.tif) [[ $stderr == *'page 1: "samples" 2 x 1 x 2 x 3 need 4 x 3 pixels'* ]] ;;
-      empty.tif) [[ $stderr == *"is empty"* ]] ;;
-      text.tif) [[ $stderr == *"neither TIFF nor EXR"* ]] ;;
+      nan.tif) why='page 1: sample (0, 0, 1, 0) is not finite' ;;
+      wrong.tif) why='page 1: "samples" 2 x 1 x 2 x 3 need 4 x 3 pixels, there are 4 x 2' ;;
+      new.tif) why='page 1: version 2 of the format is unknown (this program reads version 1)' ;;
+      twice.tif) why='page 1: malformed JSON: line 1: duplicate object key' ;;
+      cut.tif | short.tif) why='truncated' ;;
+      empty.tif) why='is empty' ;;
+      text.tif) why='neither TIFF nor EXR' ;;
+      none.tif) why='No such file or directory' ;;
+      .) why='Is a directory' ;;
+      *) false ;;
       esac
+      [[ $stderr == *"$why"* ]] || { echo "$bad: '$stderr' does not say '$why'"; false; }
     done
   done
   [ ! -e out.exr ]
@@ -186,9 +194,52 @@ $line"
   refused 1 "short.tif: page 1: is truncated"
 }
 
+@test "convert to stdout: the same slab as in a file" {
+  for more in "" "--precision float" "--precision half"; do
+    # shellcheck disable=SC2086
+    "$BAKESLAB" convert a.tif -o file.tif $more
+    # shellcheck disable=SC2086
+    "$BAKESLAB" convert a.tif -o - $more >piped.tif
+    # shellcheck disable=SC2086
+    "$BAKESLAB" convert - -o - $more <a.tif | cat | "$BAKESLAB" diff - file.tif
+    run --separate-stderr "$BAKESLAB" diff file.tif piped.tif
+    [ "$status" -eq 0 ]
+  done
+  [ ! -e - ]
+  raw_slab neg.tif '[1, 1, 1, 1]' 1 1 '' bf800000 bf800000 bf800000
+  run --separate-stderr "$BAKESLAB" convert neg.tif -o -
+  refused 1 "stdout: page 1: sample (0, 0, 0, 0)" "--precision float"
+  [ -z "$output" ]
+  [ -c /dev/full ] || skip "no /dev/full"
+  run bash -c '"$0" convert a.tif -o - 2>err >/dev/full' "$BAKESLAB"
+  [ "$status" -eq 1 ]
+  grep -q "bakeslab: stdout: cannot be written: No space left" err
+}
+
+@test "-q is taken by every command and silences notes, not errors" {
+  for command in "info a.tif" "check a.tif" "lookup a.tif" "convert a.tif -o q.exr" "diff a.tif a.tif" \
+    "include a.tif -o q.inc"; do
+    for option in -q --quiet; do
+      # shellcheck disable=SC2086
+      run --separate-stderr "$BAKESLAB" $command $option <<<"0 0 0 0 -1 0"
+      [ "$status" -eq 0 ]
+      [ -z "$stderr" ]
+    done
+  done
+  raw_slab odd.tif '[1, 1, 1, 1]' 1 1 ', "name": "odd", "provenance": {"housing": "#end"}' "$one"
+  run --separate-stderr "$BAKESLAB" include odd.tif -o odd.inc
+  [ "$status" -eq 0 ]
+  [[ $stderr == "bakeslab: odd.tif: note: its housing is left out"* ]]
+  run --separate-stderr "$BAKESLAB" include -q odd.tif -o odd.inc
+  [ "$status" -eq 0 ]
+  [ -z "$stderr" ]
+  run --separate-stderr "$BAKESLAB" info -q none.tif
+  refused 1 "none.tif: No such file"
+}
+
 @test "usage errors exit 2 and say what is wrong" {
   for arguments in "" "frobnicate" "info" "info a.tif b.tif" "info --nonsense a.tif" "lookup --page 0 a.tif" \
-    "convert a.tif" "convert -o x.tif" "convert a.tif -o x.tif --precision double" \
+    "convert a.tif" "convert a.tif a.tif -o x.tif" "include a.tif" "include -o x.inc" "convert -o x.tif" "convert a.tif -o x.tif --precision double" \
     "convert a.tif -o x.tif --uv 0x3" "convert a.tif -o x.tif --st 3x" "convert a.tif -o x.tif --crop uv=2:1,0:1" \
     "diff a.tif a.tif --tolerance x"; do
     # shellcheck disable=SC2086
