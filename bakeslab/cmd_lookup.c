@@ -185,6 +185,10 @@ int cmd_lookup(int argc, char **argv) {
   struct options options = {0};
   struct slab_error error = {{0}};
   argp_parse(&argp, argc, argv, 0, NULL, &options);
+  if (!strcmp(options.path, "-")) {
+    cli_complain("-: the rays come from stdin, so the slab must be a file");
+    return CLI_USAGE;
+  }
   int status = run(&options, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
 }

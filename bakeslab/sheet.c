@@ -18,10 +18,6 @@ double sheet_edge(const struct slab *slab, int axis) {
   return slab_spacing(slab, axis) * slab->samples[axis];
 }
 
-static const float *sample(const struct slab *slab, size_t index) {
-  return slab->rgb + 3 * index;
-}
-
 static double peak_of(const struct slab *slab) {
   double peak = 0;
   size_t values = 3 * slab_sample_count(slab);
@@ -40,15 +36,15 @@ static double faintest_of(const struct slab *slab) {
 /* A filter cannot take away more light than there is. */
 static enum slab_result check_radiance(const struct slab *slab, int page,
                                        struct slab_error *error) {
-  size_t count = slab_sample_count(slab), width = (size_t)slab_width(slab);
-  for (size_t k = 0; k < count; ++k)
-    for (int c = 0; c < 3; ++c)
-      if (sample(slab, k)[c] < 0)
-        return slab_fail(error, SLAB_BAD,
-                         "page %d: radiance %g at pixel %zu,%zu is negative, which a filter "
-                         "before a light cannot show; give include a slab without negative light",
-                         page + 1, (double)sample(slab, k)[c], k % width, k / width);
-  return SLAB_OK;
+  size_t values = 3 * slab_sample_count(slab), k = 0;
+  int at[SLAB_AXES];
+  while (k < values && !(slab->rgb[k] < 0)) ++k;
+  if (k == values) return SLAB_OK;
+  slab_locate(slab, k / 3, at);
+  return slab_fail(error, SLAB_BAD,
+                   "page %d: radiance %g of sample (%d, %d, %d, %d) is negative, which a filter "
+                   "before a light cannot show; give include a slab without negative light",
+                   page + 1, (double)slab->rgb[k], at[SLAB_U], at[SLAB_V], at[SLAB_S], at[SLAB_T]);
 }
 
 static int view_is_lit(const struct slab *slab, int i, int j) {

@@ -204,7 +204,7 @@ static void test_radiance(void **state) {
   chain_sample(&slab, 0, 0, 3, 2)[1] = -0.5F;
   write_slab(&slab);
   expect_refusal("slab.exr -o out.inc", 1,
-                 "slab.exr: page 1: radiance -0.5 at pixel 3,2 is negative");
+                 "slab.exr: page 1: radiance -0.5 of sample (0, 0, 3, 2) is negative");
   assert_null(strstr(chain_log(), "clamp"));
   memset(slab.rgb, 0, sizeof(float) * 3 * 64 * 64);
   write_slab(&slab);

@@ -66,6 +66,8 @@ END
 $line"
     refused 1 "stdin: line 2"
   done
+  run --separate-stderr "$BAKESLAB" lookup - <a.tif
+  refused 2 "-: the rays come from stdin"
   run --separate-stderr "$BAKESLAB" lookup --page 2 a.tif </dev/null
   refused 1 "a.tif: has no page 2"
 }
