@@ -27,15 +27,15 @@ double chain_random(uint64_t *state) {
 
 static void random_frame(uint64_t *state, double frame[3][3]) {
   for (int k = 0; k < 3; ++k) {
-    double size = 0;
-    while (size < 0.1) {
+    double size;
+    do {
       for (int c = 0; c < 3; ++c) frame[k][c] = 2 * chain_random(state) - 1;
       for (int m = 0; m < k; ++m) {
         double share = chain_dot(frame[k], frame[m]);
         for (int c = 0; c < 3; ++c) frame[k][c] -= share * frame[m][c];
       }
       size = chain_length(frame[k]);
-    }
+    } while (size < 0.1);
     for (int c = 0; c < 3; ++c) frame[k][c] /= size;
   }
 }
