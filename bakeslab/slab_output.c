@@ -18,7 +18,8 @@ static enum slab_result begin_stdout(struct slab_output *output, struct slab_err
     return slab_fail(error, SLAB_IO, "stdout: no temporary file: %s", strerror(why));
   output->target = strdup("stdout");
   if (output->target) return SLAB_OK;
-  slab_output_abandon(output);
+  close(output->fd);
+  output->fd = -1;
   return slab_fail(error, SLAB_MEMORY, "stdout: out of memory");
 }
 
