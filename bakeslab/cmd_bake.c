@@ -141,7 +141,6 @@ static double parse_gain(struct argp_state *state, const char *text) {
 /* Options that say what to bake. */
 static error_t parse_samples(int key, char *text, struct argp_state *state,
                              struct bake_options *bake) {
-  static const char *const precisions[] = {"", "logluv", "float", "half", NULL};
   switch (key) {
   case OPTION_UV:
     parse_size(state, "--uv", text, bake->uv);
@@ -150,7 +149,8 @@ static error_t parse_samples(int key, char *text, struct argp_state *state,
     parse_size(state, "--st", text, bake->st);
     return 0;
   case OPTION_PRECISION:
-    bake->precision = (enum slab_precision)parse_word(state, "--precision", text, precisions);
+    if (!cli_parse_precision(text, &bake->precision))
+      argp_error(state, "--precision %s: is none of logluv, float, half", text);
     return 0;
   case OPTION_RAYS:
     bake->rays = parse_number(state, "--rays", text, 1, 4096);
