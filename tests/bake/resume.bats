@@ -138,3 +138,48 @@ goes_on() {
   wait "$pid"
   same x.tif whole.tif
 }
+
+# Starts a bake, changes parts.inc or the script (a command) when it has a batch.
+change_meanwhile() {
+  BAKE_EXEC='exec' slow -o x.tif --jobs 1 >log 2>&1 3>&- &
+  local pid=$! status=0
+  wait_for_batch x.tif.partial
+  eval "$1"
+  wait "$pid" || status=$?
+  cat log
+  [ "$status" -eq 1 ]
+  [ "$(wc -l <log)" -eq 1 ]
+  [ ! -e x.tif ]
+}
+
+@test "an include that changes while a bake runs stops it; no batch made after it is used" {
+  whole
+  change_meanwhile "echo '#declare Part = 0.25;' >parts.inc"
+  [[ $(cat log) == bakeslab*parts.inc*changed* ]]
+  echo '#declare Part = 0.5;' >parts.inc
+  run slow -o x.tif
+  [ "$status" -eq 0 ]
+  same x.tif whole.tif
+}
+
+@test "a script that changes while a bake runs stops it; none of its batches is used after" {
+  whole
+  change_meanwhile "sed -i 's/rgb 1 rgb/rgb 0.5 rgb/' slow.pov"
+  [[ $(cat log) == bakeslab*slow.pov*changed* ]]
+  run slow -o x.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *", 0 of them found"* ]]
+  run ! same x.tif whole.tif
+}
+
+@test "a file read only when an effect is on is among what old batches depend on" {
+  cat >only.inc <<<'#declare Part = 0.25;'
+  sed -i 's/^Canned_Needs.*/&\n#if (Canned_Extended_Source_) #include "only.inc" #end/' slow.pov
+  sed -i 's/Canned_Needs("")/Canned_Needs("extended_source")/' slow.pov
+  interrupt INT
+  echo '#declare Part = 0.125;' >only.inc
+  run slow -o x.tif
+  echo "$output"
+  [ "$status" -eq 0 ]
+  [[ $output == *", 0 of them found"* ]]
+}
