@@ -201,8 +201,8 @@ static enum slab_result probe_once(const struct bake_work *work, struct bake_sta
   return result;
 }
 
-/* Which effects are on: the user's word, else the lamp author's, else all. The probe finds
- * the same ones on as the bake will, since what a script reads may depend on them. */
+/* Which effects are on: the user's word, else the lamp author's, else all. What a script
+ * reads may depend on them, so a probe that finds some called for is made again with these. */
 static enum slab_result probe_lamp(const struct bake_work *work, struct bake_state *state,
                                    struct slab_error *error) {
   const struct bake_options *options = work->options;
@@ -210,12 +210,12 @@ static enum slab_result probe_lamp(const struct bake_work *work, struct bake_sta
   enum slab_result result = SLAB_OK;
   if (!automatic) result = effects_parse(options->effects, "--effects", &state->effects, error);
   if (!result) result = probe_once(work, state, automatic ? NULL : state->effects.words, error);
-  if (!result && automatic && state->lamp.needs_declared)
-    result = effects_parse(state->lamp.needs, "Canned_Needs", &state->effects, error);
-  if (!result && automatic && !state->lamp.needs_declared) {
+  if (!result && automatic)
+    result = effects_parse(state->lamp.needs_declared ? state->lamp.needs : "all", "Canned_Needs",
+                           &state->effects, error);
+  if (!result && automatic && state->effects.words[0]) {
     lamp_free(&state->lamp);
-    result = effects_parse("all", "--effects", &state->effects, error);
-    if (!result) result = probe_once(work, state, state->effects.words, error);
+    result = probe_once(work, state, state->effects.words, error);
   }
   for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
     int *samples = state->lamp.slabs[n].samples;

@@ -45,16 +45,20 @@ static uint32_t own_shift(const struct bake_box *box, int axis) {
 /* Sobol's sequence: of 2^m points each of 2^m equal slices of the cell holds one, along
  * every axis, which matters since a lamp's bars and edges lie along the axes. The common
  * shift 0.010101... keeps the points a third away from the ends of their slices for every
- * m, so that the mirrored ones fill the gaps. */
+ * m, so that the mirrored ones fill the gaps. The first two points lie on the diagonal of
+ * the cell that edges behind the aperture follow (there u and s go together); the second
+ * pair is mirrored along s and t, which changes nothing along any one axis. */
 void bake_offset(enum bake_offsets kind, const struct bake_box *box, int pass,
                  double offset[SLAB_AXES]) {
+  int pair = pass / 2;
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     uint32_t v[BITS] = {0}, bits = kind == BAKE_OWN ? own_shift(box, axis) : 0x55555555;
     direction_numbers(axis, v);
     for (int n = 0; n < BITS; ++n)
-      if ((uint32_t)pass / 2 >> n & 1) bits ^= v[n];
+      if ((uint32_t)pair >> n & 1) bits ^= v[n];
     double from_middle = ((double)bits + 0.5) * 0x1p-32 - 0.5;
-    offset[axis] = kind == BAKE_CENTRE ? 0 : pass % 2 ? -from_middle : from_middle;
+    bool mirrored = (pass % 2 == 1) != (pair == 1 && axis >= SLAB_S);
+    offset[axis] = kind == BAKE_CENTRE ? 0 : mirrored ? -from_middle : from_middle;
   }
 }
 
