@@ -15,7 +15,7 @@ static const double slope = 1.5; /* of the window's edges */
 static int bake_all(void **state) {
   if (bakes_setup(state)) return -1;
   assert_int_equal(bakes_run("cp \"$FIXTURES\"/../../../lamps/parabolic.pov ."), 0);
-  bakes_start("parabolic", "lamp.exr", "--uv 16x16 --st 32x32 --rays 16 --effects none");
+  bakes_start("parabolic", "lamp.exr", "--effects none");
   bakes_start("parabolic", "plain.exr", "--uv 8x8 --st 16x16 --rays 4 --effects none");
   bakes_start("parabolic", "dim.exr", "--uv 8x8 --st 16x16 --rays 4 --effects none --gain 2^-7");
   bakes_wait();
