@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A POV-Ray process costs 0.4 s of waiting whatever it renders, and finds a mesh
- * camera's face by a linear search through the meshes: batches of a few seconds. */
-enum { BATCH_RAYS = 1 << 21, BATCH_CAMERAS = 1024, BATCH_TILES = 4096, BATCH_FRAMES = 512 };
+/* A POV-Ray process costs 0.4 s of waiting whatever it renders: batches of a few seconds,
+ * all of a round about equal and a multiple of BATCH_EVEN of them, so that a few processes
+ * end together. Costs are in rays; a camera costs some too, since POV-Ray finds a mesh
+ * camera's face by a linear search through the meshes. */
+enum { BATCH_COST = 1 << 21, CAMERA_COST = 256, BATCH_EVEN = 4, BATCH_FRAMES = 512 };
 
 /* The sides of a tile, and of the largest mesh of directions, whose parsing grows faster
  * than its faces do. */
@@ -144,26 +146,39 @@ static bool same_shape(const struct bake_box *a, const struct bake_box *b) {
   return !memcmp(a->size, b->size, sizeof a->size);
 }
 
+static size_t batch_cost(const struct bake_batch *batch) {
+  return batch->rays + CAMERA_COST * batch->count;
+}
+
+/* The cost at which a batch is full. */
+static size_t full_cost(const struct bake_round *round) {
+  struct bake_batch all = {.count = round->unit_count};
+  for (size_t unit = 0; unit < round->unit_count; ++unit)
+    all.rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
+  size_t batches = (batch_cost(&all) + BATCH_COST - 1) / BATCH_COST;
+  if (batches > 1) batches = (batches + BATCH_EVEN - 1) / BATCH_EVEN * BATCH_EVEN;
+  return batches ? (batch_cost(&all) + batches - 1) / batches : 1;
+}
+
 /* Whether a unit may join the batch. Frames of an animation are all of one shape. */
 static bool fits(const struct bake_round *round, const struct bake_batch *batch, size_t unit,
-                 enum bake_form form) {
+                 enum bake_form form, size_t full) {
   if (!batch->count) return true;
   const struct bake_box *box = &round->boxes[round->units[unit].box];
   const struct bake_box *first = &round->boxes[round->units[batch->first].box];
   bool second_of_pair =
       round->units[unit].pass % 2 && round->units[unit - 1].box == round->units[unit].box;
   if (second_of_pair) return true;
-  if (form != BAKE_MESH)
-    return batch->count < BATCH_FRAMES && batch->rays < BATCH_RAYS && same_shape(box, first);
-  return batch->rays < BATCH_RAYS && (batch->count < BATCH_CAMERAS ||
-                                      (batch->rays < BATCH_RAYS / 2 && batch->count < BATCH_TILES));
+  if (form != BAKE_MESH && (batch->count >= BATCH_FRAMES || !same_shape(box, first))) return false;
+  return batch_cost(batch) < full;
 }
 
 static enum slab_result cut_batches(struct bake_round *round, enum bake_form form,
                                     struct slab_error *error) {
+  size_t full = full_cost(round);
   for (size_t unit = 0; unit < round->unit_count; ++unit) {
     struct bake_batch *last = round->batch_count ? &round->batches[round->batch_count - 1] : NULL;
-    if (!last || !fits(round, last, unit, form)) {
+    if (!last || !fits(round, last, unit, form, full)) {
       struct bake_batch *grown = grow(round->batches, round->batch_count, sizeof *grown);
       if (!grown) return slab_fail(error, SLAB_MEMORY, "out of memory");
       round->batches = grown;

@@ -13,13 +13,16 @@
 
 #include "files.h"
 
-/* A process that has rendered its last pixel only writes its file and waits for
- * itself: the next one may start. */
+/* POV-Ray waits for itself for some 0.2 s before its first pixel and after its last one:
+ * the next process may start when one has no more than OVERLAP seconds to render. */
+static const double OVERLAP = 0.4;
+
 enum process_state { IDLE, RENDERING, CLOSING };
 
 struct process {
   enum process_state state;
   pid_t pid;
+  double start; /* seconds */
   size_t batch;
   char key[33];
   char *scratch;
@@ -41,6 +44,12 @@ struct run {
   size_t rays_done, rays_all;
   struct progress progress;
 };
+
+static double now(void) {
+  struct timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
 
 /* The scene of a batch, and the key under which the store has it. */
 static char *batch_text(const struct bake_work *work, const struct bake_round *round, size_t batch,
@@ -109,6 +118,7 @@ static enum slab_result start_batch(struct run *run, struct process *process, si
   free(text);
   if (!result) {
     process->state = RENDERING;
+    process->start = now();
     return SLAB_OK;
   }
   release(process, true);
@@ -208,7 +218,8 @@ static int count_rendering(const struct run *run, double *rays) {
     struct process *process = &run->processes[n];
     if (process->state == IDLE) continue;
     double part = povray_progress(&process->job);
-    if (part >= 1) process->state = CLOSING;
+    if (part > 0 && (now() - process->start) * (1 - part) / part < OVERLAP)
+      process->state = CLOSING;
     rendering += process->state == RENDERING;
     *rays += part * (double)run->round->batches[process->batch].rays;
   }
