@@ -141,7 +141,7 @@ LAMP
 
 @test "a disk that fills: said so, and after making room the bake goes on" {
   mkdir disk
-  mount -t tmpfs -o size=6m none disk 2>/dev/null || skip 'needs the right to mount'
+  mount -t tmpfs -o size=4m none disk 2>/dev/null || skip 'needs the right to mount'
   slow_lamp
   slow -q -o whole.tif
   run slow -o disk/x.tif --jobs 1
@@ -149,7 +149,7 @@ LAMP
   [ "$status" -eq 1 ]
   [[ $output == "bakeslab: disk/x.tif.partial: the disk is full; make room and run the same command again"* ]]
   [ ! -e disk/x.tif ]
-  [ -z "$(find disk -name '*.tmp*')" ]
+  [ -z "$(find disk -name 'scratch.*')" ]
   mount -o remount,size=40m disk
   run slow -o disk/x.tif
   echo "$output"
