@@ -45,12 +45,6 @@ struct run {
   struct progress progress;
 };
 
-static double now(void) {
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 /* The scene of a batch, and the key under which the store has it. */
 static char *batch_text(const struct bake_work *work, const struct bake_round *round, size_t batch,
                         struct povray_job *job, char key[33]) {
@@ -118,7 +112,7 @@ static enum slab_result start_batch(struct run *run, struct process *process, si
   free(text);
   if (!result) {
     process->state = RENDERING;
-    process->start = now();
+    process->start = progress_now();
     return SLAB_OK;
   }
   release(process, true);
@@ -218,7 +212,7 @@ static int count_rendering(const struct run *run, double *rays) {
     struct process *process = &run->processes[n];
     if (process->state == IDLE) continue;
     double part = povray_progress(&process->job);
-    if (part > 0 && (now() - process->start) * (1 - part) / part < OVERLAP)
+    if (part > 0 && (progress_now() - process->start) * (1 - part) / part < OVERLAP)
       process->state = CLOSING;
     rendering += process->state == RENDERING;
     *rays += part * (double)run->round->batches[process->batch].rays;

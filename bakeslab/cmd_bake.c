@@ -58,7 +58,7 @@ static const struct argp_option options[] = {
      "how POV-Ray is asked: many views an image, one view a frame, one direction a frame "
      "(default: the cheapest)",
      3},
-    {"jobs", 'j', "N", 0, "POV-Ray processes at a time (default: one a processor)", 4},
+    {"jobs", 'j', "N", 0, "POV-Ray processes rendering at a time (default: one a processor)", 4},
     {"shard", OPTION_SHARD, "K/N", 0,
      "bake the K-th of N parts (from 1) of the batches into SLAB.partial and stop there; the "
      "run without --shard bakes what is missing and assembles the slab",

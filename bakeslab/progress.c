@@ -7,7 +7,7 @@
 
 enum { BAR = 30 };
 
-static double now(void) {
+double progress_now(void) {
   struct timespec time;
   clock_gettime(CLOCK_MONOTONIC, &time);
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
@@ -15,7 +15,7 @@ static double now(void) {
 
 void progress_start(struct progress *progress, bool quiet, double part) {
   *progress = (struct progress){
-      .shown = !quiet && isatty(STDERR_FILENO), .start = now(), .start_part = part};
+      .shown = !quiet && isatty(STDERR_FILENO), .start = progress_now(), .start_part = part};
 }
 
 static void print_time(double seconds) {
@@ -27,7 +27,7 @@ static void print_time(double seconds) {
 }
 
 void progress_show(struct progress *progress, double part, const char *label) {
-  double time = now();
+  double time = progress_now();
   if (!progress->shown || time - progress->drawn < 0.2) return;
   progress->drawn = time;
   int filled = (int)(part * BAR);

@@ -10,6 +10,9 @@ struct progress {
   double start_part;   /* what was done before this run */
 };
 
+/* Seconds on a clock that never jumps. */
+double progress_now(void);
+
 /* `quiet`, or a stderr that is no terminal, keeps it silent. */
 void progress_start(struct progress *progress, bool quiet, double part);
 /* part: 0..1 of the work, label: what is being done. Draws at most 5 times a second. */
