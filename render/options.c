@@ -1,0 +1,223 @@
+/* options.c - see options.h. */
+#include "options.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tiles.h"
+
+enum {
+  OPTION_LIGHT = 1000,
+  OPTION_METHOD,
+  OPTION_TOLERANCE,
+  OPTION_THREADS,
+  OPTION_SEED,
+  OPTION_STATS,
+  OPTION_REPAIR,
+  OPTION_SHADOW_GRID,
+  OPTION_SHADOW_EDGE
+};
+
+enum { MOST_THREADS = 1024, MOST_SHADOW_GRID = 256, MOST_SHADOW_EDGE = 65536 };
+
+/* A number, and where it ends; strtod would skip blanks. */
+static bool number_at(const char *text, const char **end, double *number) {
+  if (isspace((unsigned char)*text)) return false;
+  char *after;
+  *number = strtod(text, &after);
+  *end = after;
+  return after > text && isfinite(*number);
+}
+
+bool options_number(const char *text, double *number) {
+  const char *end;
+  return number_at(text, &end, number) && !*end;
+}
+
+bool options_numbers(const char *text, int count, double *numbers) {
+  for (int k = 0; k < count; ++k) {
+    const char *end;
+    if (!number_at(text, &end, &numbers[k])) return false;
+    if (*end != (k + 1 < count ? ',' : 0)) return false;
+    text = end + 1;
+  }
+  return true;
+}
+
+bool options_count(const char *text, uint64_t low, uint64_t high, uint64_t *count) {
+  if (!isdigit((unsigned char)*text)) return false;
+  char *end;
+  errno = 0;
+  unsigned long long value = strtoull(text, &end, 10);
+  if (errno || *end || value < low || value > high) return false;
+  *count = value;
+  return true;
+}
+
+static int parse_count(const char *option, const char *text, int high, struct argp_state *state) {
+  uint64_t value = 1;
+  if (!options_count(text, 1, (uint64_t)high, &value))
+    argp_error(state, "%s %s: must be a whole number from 1 to %d", option, text, high);
+  return (int)value;
+}
+
+static void parse_method(const char *name, struct options *options, struct argp_state *state) {
+  if (gather_method_parse(name, &options->method)) return;
+  char known[256] = "";
+  size_t used = 0;
+  for (int k = 0; k < GATHER_METHODS && used < sizeof known; ++k)
+    used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "",
+                             gather_method_name((enum gather_method)k));
+  argp_error(state, "--method %s: there are %s", name, known);
+}
+
+static void add_light(const char *text, struct options *options, struct argp_state *state) {
+  size_t room = sizeof *options->lights * ((size_t)options->light_count + 1);
+  const char **lights = realloc(options->lights, room);
+  if (!lights) {
+    argp_failure(state, EXIT_FAILURE, 0, "out of memory");
+    return;
+  }
+  options->lights = lights;
+  options->lights[options->light_count++] = text;
+}
+
+static error_t parse_lights(int key, char *value, struct argp_state *state) {
+  struct options *options = state->input;
+  switch (key) {
+  case OPTION_LIGHT:
+    add_light(value, options, state);
+    return 0;
+  case OPTION_REPAIR:
+    options->repair = true;
+    return 0;
+  case ARGP_KEY_SUCCESS:
+    if (!options->light_count) argp_error(state, "no light given; add --light 'FILE [at=X,Y,Z]'");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static void set_defaults(struct options *options) {
+  options->method = GATHER_AUTO;
+  options->shadow_grid = 16;
+  options->shadow_edge = 256;
+}
+
+static void finish(struct options *options, struct argp_state *state) {
+  if (!(options->tolerance > 0))
+    options->tolerance = options->method == GATHER_REFERENCE ? 1e-6 : 0.01;
+  if (options->threads < 1) options->threads = tiles_processors();
+  if (options->shadow_edge < options->shadow_grid)
+    argp_error(state, "--shadow-edge %d: must not be less than --shadow-grid %d",
+               options->shadow_edge, options->shadow_grid);
+}
+
+static error_t parse_sum(int key, char *value, struct argp_state *state) {
+  struct options *options = state->input;
+  switch (key) {
+  case ARGP_KEY_INIT:
+    state->child_inputs[0] = options;
+    set_defaults(options);
+    return 0;
+  case OPTION_METHOD:
+    parse_method(value, options, state);
+    return 0;
+  case OPTION_TOLERANCE:
+    if (!options_number(value, &options->tolerance) || !(options->tolerance > 0))
+      argp_error(state, "--tolerance %s: must be a number above 0", value);
+    return 0;
+  case OPTION_THREADS:
+    options->threads = parse_count("--threads", value, MOST_THREADS, state);
+    return 0;
+  case OPTION_SEED:
+    if (!options_count(value, 0, UINT64_MAX, &options->seed))
+      argp_error(state, "--seed %s: must be a whole number from 0 to 2^64-1", value);
+    return 0;
+  case OPTION_STATS:
+    options->stats = value;
+    return 0;
+  case OPTION_SHADOW_GRID:
+    options->shadow_grid = parse_count("--shadow-grid", value, MOST_SHADOW_GRID, state);
+    return 0;
+  case OPTION_SHADOW_EDGE:
+    options->shadow_edge = parse_count("--shadow-edge", value, MOST_SHADOW_EDGE, state);
+    return 0;
+  case ARGP_KEY_SUCCESS:
+    finish(options, state);
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static const struct argp_option light_options[] = {
+    {"light", OPTION_LIGHT, "LIGHT", 0,
+     "'FILE [at=X,Y,Z] [toward=X,Y,Z] [up=X,Y,Z] [matrix=12 numbers] [scale=S] [gain=G]': a slab "
+     "and where it is; may be repeated",
+     0},
+    {"repair", OPTION_REPAIR, NULL, 0,
+     "Mend the mesh: drop triangles without area, make up normals and materials", 0},
+    {0}};
+
+static const struct argp_option sum_options[] = {
+    {"method", OPTION_METHOD, "METHOD", 0,
+     "How light is summed: auto (the default), reference, paper, midpoint, pi, closed or views", 0},
+    {"tolerance", OPTION_TOLERANCE, "T", 0,
+     "Relative error that is allowed (default 0.01; 1e-6 for reference)", 0},
+    {"shadow-grid", OPTION_SHADOW_GRID, "N", 0,
+     "Shadow rays look at each aperture in N x N blocks (default 16)", 0},
+    {"shadow-edge", OPTION_SHADOW_EDGE, "N", 0,
+     "and at edges of shadows in parts of 1/N of its sides (default 256)", 0},
+    {"threads", OPTION_THREADS, "N", 0, "Threads (default: one a processor); same result", 0},
+    {"seed", OPTION_SEED, "N", 0, "Of the method paper (default 0)", 0},
+    {"stats", OPTION_STATS, "FILE", 0, "Write what was done, and its time, as JSON", 0},
+    {0}};
+
+const struct argp options_lights_argp = {.options = light_options, .parser = parse_lights};
+
+static const struct argp_child sum_children[] = {{&options_lights_argp, 0, NULL, 0}, {0}};
+const struct argp options_argp = {
+    .options = sum_options, .parser = parse_sum, .children = sum_children};
+
+void options_free(struct options *options) {
+  free(options->lights);
+  memset(options, 0, sizeof *options);
+}
+
+enum slab_result options_load_lights(const struct options *options, struct light **lights,
+                                     struct slab_error *error) {
+  int count = options->light_count;
+  enum slab_result result = SLAB_OK;
+  *lights = calloc(count > 0 ? (size_t)count : 1, sizeof **lights);
+  if (!*lights) return slab_fail(error, SLAB_MEMORY, "out of memory for the lights");
+  for (int k = 0; k < count && result == SLAB_OK; ++k)
+    result = light_load(options->lights[k], &(*lights)[k], error);
+  if (result != SLAB_OK) {
+    options_free_lights(*lights, count);
+    *lights = NULL;
+  }
+  return result;
+}
+
+void options_free_lights(struct light *lights, int count) {
+  for (int k = 0; lights && k < count; ++k) light_free(&lights[k]);
+  free(lights);
+}
+
+struct gather_settings options_settings(const struct options *options, const struct light *lights,
+                                        const struct occlusion *occlusion) {
+  return (struct gather_settings){.lights = lights,
+                                  .light_count = options->light_count,
+                                  .method = options->method,
+                                  .tolerance = options->tolerance,
+                                  .seed = options->seed,
+                                  .occlusion = occlusion,
+                                  .shadow_grid = options->shadow_grid,
+                                  .shadow_edge = options->shadow_edge};
+}
