@@ -5,7 +5,7 @@
 #include "bake.h"
 #include "bake_store.h"
 #include "bake_sum.h"
-#include "progress.h"
+#include "slab_progress.h"
 
 /* All that a round needs besides itself; nothing is owned. */
 struct bake_work {

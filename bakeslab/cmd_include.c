@@ -11,6 +11,7 @@
 #include "sheet.h"
 #include "slab_file.h"
 #include "slab_json.h"
+#include "slab_name.h"
 #include "slab_output.h"
 
 static const char help_text[] =
@@ -70,29 +71,14 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
   }
 }
 
-/* desk_lamp becomes Desk_Lamp. POV-Ray's identifiers have at most 40
- * characters, and the longest suffix that we add is _Canned_Inc_Temp. */
-enum { NAME_SIZE = 40 - 16 + 1 };
-
-static enum slab_result capitalise(const char *name, char capitalised[NAME_SIZE],
-                                   struct slab_error *error) {
-  size_t length = strlen(name);
-  int good = length > 0 && isalpha((unsigned char)name[0]);
-  for (size_t k = 0; k < length; ++k)
-    good = good && (isalnum((unsigned char)name[k]) || name[k] == '_');
-  if (!good)
-    return slab_fail(error, SLAB_BAD,
-                     "the name \"%s\" is no identifier (letters, digits, _); give one with --name",
-                     name);
-  if (length >= NAME_SIZE)
-    return slab_fail(error, SLAB_BAD,
-                     "the name \"%s\" is longer than %d characters; give a shorter one with --name",
-                     name, NAME_SIZE - 1);
-  for (size_t k = 0; k <= length; ++k) {
-    int first = k == 0 || name[k - 1] == '_';
-    capitalised[k] = first ? (char)toupper((unsigned char)name[k]) : name[k];
-  }
-  return SLAB_OK;
+/* The lamp's name in POV-Ray: the slab's, unless --name gives another. */
+static enum slab_result choose_name(const char *given, const struct slab *slab,
+                                    char name[SLAB_IDENTIFIER_SIZE], struct slab_error *error) {
+  enum slab_result result = slab_name_capitalise(given ? given : slab->name, name, error);
+  if (result == SLAB_OK) return result;
+  struct slab_error reason = *error;
+  return slab_fail(error, result, "%s; give %s with --name", reason.text,
+                   given ? "another" : "one");
 }
 
 static const char *base_name(const char *path) {
@@ -165,14 +151,14 @@ static enum slab_result include_slab(const struct arguments *arguments, struct s
   struct slab *slabs = NULL;
   int count = 0;
   struct sheet sheet = {0};
-  char name[NAME_SIZE];
+  char name[SLAB_IDENTIFIER_SIZE];
   char *image = image_path(arguments->output), *housing = NULL;
   enum slab_result result = SLAB_OK;
   if (!image) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   if (result == SLAB_OK) result = check_outputs(arguments->slab, arguments->output, image, error);
   if (result == SLAB_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
   if (result == SLAB_OK) {
-    result = capitalise(arguments->name ? arguments->name : slabs[0].name, name, error);
+    result = choose_name(arguments->name, &slabs[0], name, error);
     if (result == SLAB_OK) result = sheet_make(slabs, count, arguments->lights, &sheet, error);
     result = blame(arguments->slab, result, error);
   }

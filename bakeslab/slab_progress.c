@@ -1,5 +1,5 @@
-/* progress.c - see progress.h. */
-#include "progress.h"
+/* slab_progress.c - see slab_progress.h. */
+#include "slab_progress.h"
 
 #include <stdio.h>
 #include <time.h>

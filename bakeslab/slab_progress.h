@@ -1,8 +1,12 @@
-/* progress.h - a bar with the time left, on stderr while that is a terminal. */
-#ifndef PROGRESS_H
-#define PROGRESS_H
+/* slab_progress.h - a bar with the time left, on stderr while that is a terminal. */
+#ifndef SLAB_PROGRESS_H
+#define SLAB_PROGRESS_H
 
 #include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 struct progress {
   bool shown;
@@ -20,4 +24,7 @@ void progress_show(struct progress *progress, double part, const char *label);
 /* Clears the line. */
 void progress_end(struct progress *progress);
 
+#ifdef __cplusplus
+}
+#endif
 #endif
