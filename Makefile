@@ -3,11 +3,13 @@
 # $(B). A command line may set config, CC, CFLAGS, LDFLAGS, prefix, DESTDIR,
 # SETUP=no, V=1 (show every command) and T (see `make help`).
 
-VERSION := $(shell sed -n 's,^.define BAKESLAB_VERSION "\(.*\)",\1,p' bakeslab/cli.h)
+VERSION := $(shell sed -n 's,^.define CANNED_VERSION "\(.*\)",\1,p' bakeslab/slab_cli.h)
 config ?= release
 B := build/$(config)
 V :=
-BIN := $(B)/bin/bakeslab
+BAKE_BIN := $(B)/bin/bakeslab
+RENDER_BIN := $(B)/bin/renderslab
+BIN := $(BAKE_BIN) $(RENDER_BIN)
 prefix ?= /usr/local
 SETUP ?= yes
 
@@ -31,6 +33,10 @@ WARN := -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wvla
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/null))$(PKG_LIBS)
+# What only renderslab uses. Embree 3 has no pkg-config file.
+RENDER_USED := assimp libpng
+RENDER_CFLAGS = $(eval RENDER_CFLAGS := -Irender $(shell pkg-config --cflags $(RENDER_USED) 2>/dev/null))$(RENDER_CFLAGS)
+RENDER_LIBS = $(eval RENDER_LIBS := -lembree3 $(shell pkg-config --libs $(RENDER_USED) 2>/dev/null))$(RENDER_LIBS)
 
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE $(WARN) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab $(PKG_CFLAGS) $(CFLAGS)
 ALL_LDFLAGS = -Wl,--as-needed $(CFLAGS_$(config)) $(CFLAGS) $(LDFLAGS)
@@ -47,10 +53,11 @@ quote = '$(subst ','\'',$(1))'
 
 # ---- Set-up: the Debian packages that the goals on the command line need.
 PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc) libc6-dev make pkg-config \
-  libtiff-dev libopenexr-dev libjansson-dev libxxhash-dev
+  libtiff-dev libopenexr-dev libjansson-dev libxxhash-dev \
+  libembree-dev libassimp-dev libpng-dev
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_man  := help2man scdoc
-PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_man) libcmocka-dev bats
+PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_man) libcmocka-dev libgmp-dev bats
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
 PACKAGES := $(sort $(PACKAGES_build) \
@@ -62,7 +69,7 @@ PACKAGES := $(sort $(PACKAGES_build) \
 # Compiling waits for it where the goal is one that sets up by itself.
 SETUP_FIRST := $(call goals_need,setup demo test bench lint sanitize man install,setup)
 
-all: $(BIN) ## build the program (the default)
+all: $(BIN) ## build the programs (the default)
 	@:
 
 include bakeslab/flat.mk
@@ -93,17 +100,19 @@ ifneq ($(SETUP),no)
 	      $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing; } \
 	      </dev/null >$$log 2>&1 || { tail -n 20 $$log; echo "make setup: apt could not install$$missing" >&2; exit 1; }; \
 	  fi; \
-	elif ! pkg-config --exists $(PACKAGES_USED) 2>/dev/null; then \
-	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, POV-Ray 3.7 and oiiotool (tests: cmocka, bats, help2man, scdoc) by other means' >&2; exit 1; \
+	elif ! pkg-config --exists $(PACKAGES_USED) $(RENDER_USED) 2>/dev/null; then \
+	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, Embree 3, assimp, libpng, POV-Ray 3.7 and oiiotool (tests: cmocka, GMP, bats, help2man, scdoc) by other means' >&2; exit 1; \
 	fi
 endif
 
 # ---- Compiling. The flags are a file, so that other flags rebuild.
 $(B)/flags: FORCE | $(SETUP_FIRST)
 	@mkdir -p $(@D)
-	@pkg-config --exists $(PACKAGES_USED) 2>/dev/null || { \
-	  echo 'The libraries $(PACKAGES_USED) (pkg-config names) are not all here: run `make setup`.' >&2; exit 1; }
-	@printf '%s\n' $(call quote,$(CC) $(ALL_CFLAGS) / $(ALL_LDFLAGS) $(ALL_LDLIBS)) >$@.new
+	@pkg-config --exists $(PACKAGES_USED) $(RENDER_USED) 2>/dev/null || { \
+	  echo 'The libraries $(PACKAGES_USED) $(RENDER_USED) (pkg-config names) are not all here: run `make setup`.' >&2; exit 1; }
+	@echo '#include <embree3/rtcore.h>' | $(CC) $(ALL_CFLAGS) -E -x c - >$@.new 2>&1 || { \
+	  echo 'The library Embree 3 (embree3/rtcore.h) is not here: run `make setup`.' >&2; exit 1; }
+	@printf '%s\n' $(call quote,$(CC) $(ALL_CFLAGS) / $(RENDER_CFLAGS) / $(ALL_LDFLAGS) $(RENDER_LIBS) $(ALL_LDLIBS)) >$@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 $(B)/%.o: %.c $(B)/flags
@@ -125,16 +134,16 @@ DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
 dest := $(DESTDIR)$(prefix)
 
 install: all $(LIB_FILES) $(MAN_PAGES) ## install below DESTDIR and prefix
-	$(Q)install -D -m 755 $(BIN) $(dest)/bin/bakeslab
+	$(Q)for f in $(BIN); do install -D -m 755 $$f $(dest)/bin/$${f##*/} || exit 1; done
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
 	$(Q)for f in $(LIB_FILES); do install -D -m 644 $$f $(dest)/lib/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done
 	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done
-	@echo 'installed bin/bakeslab, lib/canned, share/canned/include-pov, share/man and share/doc/canned below $(dest)'
+	@echo 'installed bin/bakeslab, bin/renderslab, lib/canned, share/canned/include-pov, share/man and share/doc/canned below $(dest)'
 
 uninstall: ## remove what install put there
-	$(Q)rm -f $(dest)/bin/bakeslab $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
+	$(Q)rm -f $(BIN:$(B)/%=$(dest)/%) $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
 	$(Q)rm -rf $(dest)/share/canned $(dest)/share/doc/canned $(dest)/lib/canned
 
 clean: ## remove everything that was built

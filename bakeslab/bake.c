@@ -9,10 +9,10 @@
 
 #include "bake_run.h"
 #include "bake_sum.h"
-#include "cli.h"
 #include "effects.h"
 #include "files.h"
 #include "housing.h"
+#include "slab_cli.h"
 #include "slab_json.h"
 
 /* Passes everywhere before tiles are told apart: with fewer, a pilot misses light. */
@@ -153,7 +153,7 @@ static char *provenance_text(const struct bake_work *work, const struct bake_noi
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
   json_t *object = json_pack(
       "{s:o, s:s, s:s, s:o, s:s, s:f, s:f}", "command", command_json(work->options->command),
-      "tool", "bakeslab " BAKESLAB_VERSION, "renderer", work->povray->version, "effects",
+      "tool", "bakeslab " CANNED_VERSION, "renderer", work->povray->version, "effects",
       effects_json(work->look.effects, work->lamp->own_radiosity), "camera", forms[work->look.form],
       "gain", work->look.gain, "rays", noise->rays);
   if (noise->known)

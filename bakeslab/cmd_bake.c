@@ -65,7 +65,6 @@ static const struct argp_option options[] = {
      4},
     {"povray", OPTION_POVRAY, "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
     {0, 'L', "FOLDER", 0, "where the script finds more files; may be repeated", 4},
-    {"quiet", 'q', 0, 0, "no progress bar, no summary", 4},
     {0}};
 
 static const char usage[] = "LAMP.pov -o SLAB";
@@ -192,9 +191,6 @@ static error_t parse_means(int key, char *text, struct argp_state *state,
   case OPTION_POVRAY:
     bake->povray = text;
     return 0;
-  case 'q':
-    bake->quiet = true;
-    return 0;
   default:
     return ARGP_ERR_UNKNOWN;
   }
@@ -270,9 +266,10 @@ int cmd_bake(int argc, char **argv) {
                                          .shards = 1,
                                          .command = cli_command_line()}};
   struct bake_options *bake_options = &arguments.bake;
-  static const struct argp argp = {options, parse_option, usage, doc, NULL, NULL, NULL};
+  static const struct argp argp = {options, parse_option, usage, doc, cli_options, NULL, NULL};
   argp_parse(&argp, argc, argv, 0, NULL, &arguments);
   bake_options->libraries = arguments.libraries;
+  bake_options->quiet = cli_quiet();
   if (!check_rays(bake_options)) return CLI_USAGE;
   struct sigaction action = {.sa_handler = on_signal};
   sigaction(SIGINT, &action, NULL);

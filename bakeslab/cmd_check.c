@@ -36,7 +36,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     options->count = state->argc - state->next;
     return 0;
   case ARGP_KEY_NO_ARGS:
-    argp_usage(state);
+    argp_error(state, "no slab given");
     return EINVAL;
   default:
     return ARGP_ERR_UNKNOWN;

@@ -91,7 +91,7 @@ static enum slab_result convert_page(const struct options *options, struct slab 
     if (result == SLAB_OK) replace(slab, &other);
   }
   if (result == SLAB_OK)
-    result = slab_json_record(slab, cli_command_line(), "bakeslab " BAKESLAB_VERSION,
+    result = slab_json_record(slab, cli_command_line(), "bakeslab " CANNED_VERSION,
                               crop || resample, error);
   return result;
 }

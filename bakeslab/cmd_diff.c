@@ -24,11 +24,11 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
       argp_error(state, "--tolerance %s: must be a number, at least 0", argument);
     return 0;
   case ARGP_KEY_ARG:
-    if (state->arg_num >= 2) argp_usage(state);
+    if (state->arg_num >= 2) argp_error(state, "%s: two slabs at a time", argument);
     options->paths[state->arg_num] = argument;
     return 0;
   case ARGP_KEY_END:
-    if (state->arg_num < 2) argp_usage(state);
+    if (state->arg_num < 2) argp_error(state, "give two slabs");
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;

@@ -6,22 +6,27 @@ BAKE_OBJECTS := $(patsubst %.c,$(B)/%.o,$(filter-out bakeslab/slab%.c bakeslab/m
 $(B)/libslab.a: $(SLAB_OBJECTS)
 $(B)/libbake.a: $(BAKE_OBJECTS)
 
-$(BIN): $(B)/bakeslab/main.o $(B)/libbake.a $(B)/libslab.a
+$(BAKE_BIN): $(B)/bakeslab/main.o $(B)/libbake.a $(B)/libslab.a
 	@mkdir -p $(@D)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
 # bakeslab.1, one page a subcommand (from --help, so that they cannot differ),
 # and light-slab.5.
-COMMANDS := $(filter-out missing,$(patsubst bakeslab/cmd_%.c,%,$(wildcard bakeslab/cmd_*.c)))
-MAN_PAGES := $(B)/man/bakeslab.1 $(COMMANDS:%=$(B)/man/bakeslab-%.1) $(B)/man/light-slab.5
+BAKE_PAGES := $(B)/man/bakeslab.1 $(patsubst bakeslab/cmd_%.c,$(B)/man/bakeslab-%.1,$(wildcard bakeslab/cmd_*.c))
+MAN_PAGES := $(BAKE_PAGES) $(B)/man/light-slab.5
 
 DATE = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || date +%s))
 
-$(B)/man/%.1: bakeslab/man.sh $(BIN) | $(SETUP_FIRST)
+# A page of section 1, of the program that it depends on.
+define man_page
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
-	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/man.sh $(BIN) $* $(VERSION) >$@
+	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/man.sh $(filter $(BIN),$^) $* $(VERSION) >$@
+endef
+
+$(BAKE_PAGES): $(B)/man/%.1: bakeslab/man.sh $(BAKE_BIN) | $(SETUP_FIRST)
+	$(man_page)
 
 $(B)/man/%.5: bakeslab/%.5.scd | $(SETUP_FIRST)
 	@mkdir -p $(@D)
@@ -39,4 +44,4 @@ $(B)/share/canned/include-pov:
 	@mkdir -p $(@D)
 	$(Q)ln -sfn $(CURDIR)/include-pov $@
 
-$(BIN): | $(READS) $(B)/share/canned/include-pov
+$(BAKE_BIN): | $(READS) $(B)/share/canned/include-pov

@@ -1,23 +1,28 @@
 #!/bin/sh
-# man.sh PROGRAM PAGE VERSION - the man page of bakeslab or bakeslab-COMMAND on
+# man.sh PROGRAM PAGE VERSION - the man page of a program or PROGRAM-COMMAND on
 # stdout, made by help2man from what --help prints.
 set -eu
 program=$(realpath "$1") page=$2 version=$3
+name=${program##*/}
 argument=
 
-# One line on what a command does stands in `bakeslab --help`.
+# What the program does is the second line of its --help, and there is one line
+# on each command.
 case $page in
-bakeslab)
-  summary='make, inspect and convert light slabs'
+"$name")
+  summary=$("$program" --help | sed -n '2{s/^./\L&/;s/\.$//;p;}')
   see='light-slab(5), povray(1)'
+  for p in bakeslab renderslab; do
+    [ "$p" = "$name" ] || see="$p(1), $see"
+  done
   for c in $("$program" --help | sed -n 's/^  \([a-z]\{1,\}\)  .*/\1/p'); do
-    [ "$c" = help ] || see="$see, bakeslab-$c(1)"
+    [ "$c" = help ] || see="$see, $name-$c(1)"
   done
   ;;
 *)
-  argument=${page#bakeslab-}
+  argument=${page#"$name"-}
   summary=$("$program" --help | sed -n "s/^  $argument  *//p")
-  see='bakeslab(1), light-slab(5)'
+  see="$name(1), light-slab(5)"
   ;;
 esac
 

@@ -5,14 +5,14 @@ POV_FILES := $(sort $(filter-out %/flat.mk,$(shell find include-pov -type f)))
 DEMO := build/demo
 DEMO_READS := include-pov/demo.pov include-pov/demo.sh
 
-$(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc $(BIN) | $(SETUP_FIRST)
+$(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc $(BAKE_BIN) | $(SETUP_FIRST)
 	@mkdir -p $(@D)
 	@echo 'Baking $< (a minute or two on two processors)'
-	@include-pov/demo.sh timed $(DEMO)/bake.seconds $(BIN) bake $< -o $@
+	@include-pov/demo.sh timed $(DEMO)/bake.seconds $(BAKE_BIN) bake $< -o $@
 
 $(DEMO)/parabolic.inc: $(DEMO)/parabolic.tif
 	@echo 'Writing the include file $@ and its image'
-	@$(BIN) include $< -o $@
+	@$(BAKE_BIN) include $< -o $@
 
 $(DEMO)/canned.exr: $(DEMO)/parabolic.inc $(DEMO_READS)
 	@echo 'Rendering the scene with the canned lamp'

@@ -1,6 +1,7 @@
 # Tests: tests/*/test_*.c are cmocka programs, tests/**/*.bats run the program
 # as a user would. Other C files beside a test_*.c are linked with each test of
 # that folder. A test is named by its path without suffix: unit/test_slab.
+# Those in tests/render link what render/ may use, all others what bakeslab/ is.
 TEST_JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 TEST_TIMEOUT ?= 540
 T := %
@@ -14,7 +15,7 @@ TEST_LONG := $(filter bake/% chain/% house/%,$(TEST_NAMES))
 TEST_CHOSEN := $(filter $(T),$(TEST_LONG) $(filter-out $(TEST_LONG),$(TEST_NAMES)))
 TEST_LOGS := $(TEST_CHOSEN:%=$(B)/tests/%.log)
 
-TEST_ENV = BAKESLAB=$(abspath $(BIN)) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
+TEST_ENV = BAKESLAB=$(abspath $(BAKE_BIN)) RENDERSLAB=$(abspath $(RENDER_BIN)) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
   CONFIG=$(config) TEST_JOBS=$(TEST_JOBS) TEST_TIMEOUT=$(TEST_TIMEOUT) \
   CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=allocator_may_return_null=1 LC_ALL=C.UTF-8
 
@@ -31,23 +32,26 @@ $(BENCH_FLOOR): $(B)/tests/bench/floor.o $(B)/tests/bench/lamp.o $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
-bench: $(BIN) $(BENCH_FLOOR) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
+bench: $(BAKE_BIN) $(BENCH_FLOOR) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
 	@mkdir -p build/bench
 	@for b in tests/bench/*.sh; do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
 
 lint: $(B)/flags ## check formatting, static analysis and house rules
-	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh
+	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh
 
 sanitize: ## run unit and command-line tests with address and undefined behaviour sanitizers
 	+@$(MAKE) --no-print-directory config=sanitize T='unit/% cli/%' test
 
-$(TEST_SOURCES:%.c=$(B)/%.o) $(TEST_HELPERS:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests
+$(TEST_SOURCES:%.c=$(B)/%.o) $(TEST_HELPERS:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests $(RENDER_CFLAGS)
+
+test_tested = $(B)/$(if $(filter tests/render/%,$(1)),librender.a,libbake.a) $(B)/libslab.a
+test_libs = -lcmocka $(if $(filter tests/render/%,$(1)),-lgmp $(RENDER_LIBS)) $(ALL_LDLIBS)
 
 define test_program
-$(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(filter $(dir $(1))%,$(TEST_HELPERS))) $(B)/libbake.a $(B)/libslab.a
+$(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(filter $(dir $(1))%,$(TEST_HELPERS))) $(call test_tested,$(1))
 	$$(call say,LINK,$$@)
-	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ -lcmocka $$(ALL_LDLIBS) -o $$@
+	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ $$(call test_libs,$(1)) -o $$@
 
 $(B)/$(1:.c=.log): $(B)/$(1:.c=) $(BIN) FORCE
 	@$$(TEST_ENV) sh tests/run.sh $$@ $$<

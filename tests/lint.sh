@@ -45,7 +45,7 @@ each_alone() { # "COMPILER AND STANDARD" HEADER...: every header compiles by its
   local compiler header bad=0
   read -ra compiler <<<"$1"
   for header in "${@:2}"; do
-    "${compiler[@]}" -fsyntax-only -Wall -Wextra -Werror -Ibakeslab -Itests -D_GNU_SOURCE "$header" || bad=1
+    "${compiler[@]}" -fsyntax-only -Wall -Wextra -Werror -Ibakeslab -Irender -Itests -D_GNU_SOURCE "$header" || bad=1
   done
   return "$bad"
 }
@@ -87,11 +87,11 @@ tidy() {
   return "$bad"
 }
 
-# Only bakeslab/: assertions of cmocka confuse the analyser. Leaks and values
+# No tests: assertions of cmocka confuse the analyser. Leaks and values
 # never set are left to clang-tidy and the sanitizers: gcc 12 sees a leak in each
 # `p->x = malloc(n)`, and sets only the first element of an array.
 analyse() {
-  only '^bakeslab/.*\.c$' | xargs -P "$JOBS" -I NAME bash -c 'assuming "$@"' _ NAME \
+  only '^(bakeslab|render)/.*\.c$' | xargs -P "$JOBS" -I NAME bash -c 'assuming "$@"' _ NAME \
     gcc "${flags[@]}" -O0 -fanalyzer -Wno-analyzer-malloc-leak -Wno-analyzer-use-of-uninitialized-value \
     -fdiagnostics-path-format=none -Werror -c FILE -o /dev/null
 }
@@ -107,7 +107,7 @@ check 'unfinished marks' unfinished
 check shellcheck shellcheck -x -e SC2013,SC2016,SC2317 "${shells[@]}"
 [ "${#bats[@]}" -eq 0 ] || check 'shellcheck (bats)' shellcheck -s bats -e SC2013,SC2016 "${bats[@]}"
 check cppcheck cppcheck -q --std=c11 --enable=warning,performance,portability --inline-suppr -j "$JOBS" \
-  --suppress=missingIncludeSystem --suppress=varFuncNullUB --error-exitcode=1 -Ibakeslab -D_GNU_SOURCE \
+  --suppress=missingIncludeSystem --suppress=varFuncNullUB --error-exitcode=1 -Ibakeslab -Irender -D_GNU_SOURCE \
   '-Djson_object_foreach(object, key, value)=while (next(&key, &value))' \
   '-Djson_array_foreach(array, index, value)=while (next(&index, &value))' "${sources[@]}"
 check clang-tidy tidy

@@ -9,7 +9,7 @@ house_make() {
     make --no-print-directory -C "$ROOT" SETUP=no "$@"
 }
 
-# The subcommands that `bakeslab --help` lists.
+# The subcommands that `PROGRAM --help` lists.
 commands() {
-  "$BAKESLAB" --help | sed -n 's/^  \([a-z]\{1,\}\)  .*/\1/p' | grep -vx help
+  "$1" --help | sed -n 's/^  \([a-z]\{1,\}\)  .*/\1/p' | grep -vx help
 }

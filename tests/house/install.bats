@@ -1,5 +1,5 @@
 #!/usr/bin/env bats
-# make install, and what is installed: the program, its data, its man pages.
+# make install, and what is installed: the programs, their data, their man pages.
 load house
 
 setup_file() {
@@ -9,16 +9,20 @@ setup_file() {
   house_make B="$BATS_FILE_TMPDIR/build" config=debug prefix=/usr DESTDIR="$DEST" install
 }
 
-@test "the program, include files, man pages and documents are installed" {
-  [ -x "$PREFIX/bin/bakeslab" ]
+@test "the programs, include files, man pages and documents are installed" {
   cmp "$ROOT/include-pov/canned.inc" "$PREFIX/share/canned/include-pov/canned.inc"
   cmp "$ROOT/include-pov/LICENSE" "$PREFIX/share/canned/include-pov/LICENSE"
   cmp "$ROOT/README.md" "$PREFIX/share/doc/canned/README.md"
   cmp "$ROOT/lamps/parabolic.pov" "$PREFIX/share/doc/canned/lamps/parabolic.pov"
   [ -s "$PREFIX/lib/canned/reads.so" ]
-  [ -s "$PREFIX/share/man/man1/bakeslab.1" ]
   [ -s "$PREFIX/share/man/man5/light-slab.5" ]
-  for command in $(commands); do [ -s "$PREFIX/share/man/man1/bakeslab-$command.1" ]; done
+  for program in bakeslab renderslab; do
+    [ -x "$PREFIX/bin/$program" ]
+    [ -s "$PREFIX/share/man/man1/$program.1" ]
+    for command in $(commands "$PREFIX/bin/$program"); do
+      [ -s "$PREFIX/share/man/man1/$program-$command.1" ]
+    done
+  done
 }
 
 @test "uninstall leaves nothing" {
@@ -28,12 +32,14 @@ setup_file() {
 }
 
 @test "every option of a command stands in its man page" {
-  for command in $(commands); do
-    page=$PREFIX/share/man/man1/bakeslab-$command.1
-    options=$("$PREFIX/bin/bakeslab" "$command" --help | grep -oE -- '--[a-z][a-z-]*' | sort -u)
-    [ -n "$options" ]
-    for option in $options; do
-      sed 's/\\-/-/g' "$page" | grep -qF -- "$option" || { echo "$page lacks $option"; false; }
+  for program in bakeslab renderslab; do
+    for command in $(commands "$PREFIX/bin/$program"); do
+      page=$PREFIX/share/man/man1/$program-$command.1
+      options=$("$PREFIX/bin/$program" "$command" --help | grep -oE -- '--[a-z][a-z-]*' | sort -u)
+      [ -n "$options" ]
+      for option in $options; do
+        sed 's/\\-/-/g' "$page" | grep -qF -- "$option" || { echo "$page lacks $option"; false; }
+      done
     done
   done
 }

@@ -26,7 +26,15 @@ load house
 @test "without the libraries, make all says make setup" {
   PKG_CONFIG_LIBDIR=/nowhere PKG_CONFIG_PATH='' run house_make B="$BATS_TEST_TMPDIR" all
   [ "$status" -ne 0 ]
-  [[ $output == *'libtiff-4'*'run `make setup`'* ]]
+  [[ $output == *'libtiff-4'*'libpng'*'run `make setup`'* ]]
+}
+
+@test "without Embree, make all says make setup" {
+  printf '#!/bin/sh\ncase $* in *" -E "*) exit 1 ;; esac\nexec gcc "$@"\n' >"$BATS_TEST_TMPDIR/cc"
+  chmod +x "$BATS_TEST_TMPDIR/cc"
+  run house_make B="$BATS_TEST_TMPDIR/b" CC="$BATS_TEST_TMPDIR/cc" all
+  [ "$status" -ne 0 ]
+  [[ $output == *'Embree 3 (embree3/rtcore.h) is not here: run `make setup`'* ]]
 }
 
 @test "other flags rebuild, the same flags do not" {
@@ -101,7 +109,7 @@ bare_path() {
   bare_path
   run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
   [ "$status" -ne 0 ]
-  [[ ${lines[0]} == *"no apt here: install a C compiler"*libtiff*OpenEXR*jansson*xxhash*POV-Ray* ]]
+  [[ ${lines[0]} == *"no apt here: install a C compiler"*libtiff*OpenEXR*jansson*xxhash*Embree*assimp*libpng*POV-Ray* ]]
 }
 
 @test "neither root nor sudo: setup says what to ask for" {

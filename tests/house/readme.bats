@@ -7,13 +7,16 @@ load house
 make test" ]
 }
 
-@test "every make target and bakeslab command that it names exists" {
+@test "every make target and command that it names exists" {
   help=$(house_make help)
   for target in $(grep -ohE '`make [a-z]+|^make [a-z]+' "$ROOT/README.md" "$ROOT"/*/README.md | awk '{ print $2 }' | sort -u); do
     grep -q "^make $target " <<<"$help" || { echo "no target $target"; false; }
   done
-  for command in $(grep -oE '(^|[`/])bakeslab [a-z]+' "$ROOT/README.md" | awk '{ print $2 }' | sort -u); do
-    commands | grep -qx "$command" || { echo "no command $command"; false; }
+  for program in "$BAKESLAB" "$RENDERSLAB"; do
+    name=${program##*/}
+    for command in $(grep -oE "(^|[\`/])$name [a-z]+" "$ROOT/README.md" | awk '{ print $2 }' | sort -u); do
+      commands "$program" | grep -qx "$command" || { echo "no command $name $command"; false; }
+    done
   done
 }
 
@@ -57,5 +60,6 @@ make test" ]
 @test "the version is the same everywhere" {
   version=$("$BAKESLAB" --version | awk '{ print $2 }')
   [[ $version =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]]
+  [ "$("$RENDERSLAB" --version)" = "renderslab $version" ]
   grep -qx "version: $version" "$ROOT/CITATION.cff"
 }

@@ -1,0 +1,172 @@
+/* slab_arguments.c - reads the files character by character: what is no text is
+ * refused before it has filled the memory. */
+#include "slab_arguments.h"
+
+#include <errno.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_DEPTH = 8 };
+
+/* A file that is being read. */
+struct reader {
+  const char *path;
+  FILE *file;
+  int line;   /* of the last character */
+  int opened; /* line of the last quote that was opened */
+};
+
+/* A word that grows. */
+struct word {
+  char *text;
+  size_t length, room;
+  bool file; /* starts with an unquoted @ */
+};
+
+static enum slab_result no_memory(struct slab_error *error) {
+  return slab_fail(error, SLAB_MEMORY, "out of memory");
+}
+
+static enum slab_result append(struct word *word, int c, struct slab_error *error) {
+  if (word->length + 1 >= word->room) {
+    size_t room = word->room ? 2 * word->room : 64;
+    char *text = realloc(word->text, room);
+    if (!text) return no_memory(error);
+    word->text = text;
+    word->room = room;
+  }
+  if (c != EOF) word->text[word->length++] = (char)c;
+  word->text[word->length] = 0;
+  return SLAB_OK;
+}
+
+/* Takes over `text`, also when it fails. */
+static enum slab_result add(struct slab_arguments *arguments, char *text,
+                            struct slab_error *error) {
+  size_t count = (size_t)arguments->count;
+  char **words = text ? realloc(arguments->words, (count + 2) * sizeof *words) : NULL;
+  if (!words) {
+    free(text);
+    return no_memory(error);
+  }
+  words[count] = text;
+  words[count + 1] = NULL;
+  arguments->words = words;
+  ++arguments->count;
+  return SLAB_OK;
+}
+
+static int next(struct reader *reader) {
+  int c = getc(reader->file);
+  if (c == '\n') ++reader->line;
+  return c;
+}
+
+static bool is_blank(int c) {
+  return c && strchr(" \t\r\n\v\f", c);
+}
+
+/* The character after a backslash in `quote`, or outside quotes where that is 0. */
+static enum slab_result read_escaped(struct reader *reader, struct word *word, int quote,
+                                     struct slab_error *error) {
+  int c = next(reader);
+  if (c == '\n') return SLAB_OK;
+  if (c == EOF)
+    return quote ? SLAB_OK /* the quote is complained about */
+                 : slab_fail(error, SLAB_BAD, "%s: line %d: ends in a backslash", reader->path,
+                             reader->line);
+  enum slab_result result = SLAB_OK;
+  if (quote && !strchr("\"\\$`", c)) result = append(word, '\\', error);
+  if (c == 0) ungetc(c, reader->file); /* refused like any other */
+  return result == SLAB_OK && c ? append(word, c, error) : result;
+}
+
+/* Reads on to the end of a word whose first character is c. */
+static enum slab_result read_word(struct reader *reader, int c, struct word *word,
+                                  struct slab_error *error) {
+  int quote = 0;
+  word->file = c == '@';
+  enum slab_result result = append(word, EOF, error);
+  for (; result == SLAB_OK && c != EOF && (quote || !is_blank(c)); c = next(reader)) {
+    if (c == 0)
+      return slab_fail(error, SLAB_BAD, "%s: line %d: has a zero byte; it should be text",
+                       reader->path, reader->line);
+    if (quote ? c == quote : c == '\'' || c == '"') {
+      quote = quote ? 0 : c;
+      reader->opened = reader->line;
+    } else if (c == '\\' && quote != '\'') {
+      result = read_escaped(reader, word, quote, error);
+    } else {
+      result = append(word, c, error);
+    }
+  }
+  if (result == SLAB_OK && quote && !ferror(reader->file))
+    result = slab_fail(error, SLAB_BAD, "%s: line %d: this %s quote is never closed", reader->path,
+                       reader->opened, quote == '"' ? "double" : "single");
+  return result;
+}
+
+static enum slab_result add_file(struct slab_arguments *arguments, const char *path,
+                                 const struct reader *from, int depth, struct slab_error *error);
+
+static enum slab_result add_words(struct slab_arguments *arguments, struct reader *reader,
+                                  int depth, struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  for (int c = next(reader); result == SLAB_OK && c != EOF; c = next(reader)) {
+    if (is_blank(c)) continue;
+    if (c == '#') {
+      while (c != '\n' && c != EOF) c = next(reader);
+      continue;
+    }
+    struct word word = {0};
+    const struct reader here = *reader; /* messages tell where the word starts */
+    result = read_word(reader, c, &word, error);
+    if (result == SLAB_OK && !word.file) {
+      result = add(arguments, word.text, error);
+      continue;
+    }
+    if (result == SLAB_OK) result = add_file(arguments, word.text + 1, &here, depth + 1, error);
+    free(word.text);
+  }
+  if (result == SLAB_OK && ferror(reader->file))
+    result = slab_fail(error, SLAB_IO, "%s: line %d: %m", reader->path, reader->line);
+  return result;
+}
+
+/* `from` is the file that names this one; NULL for the command line. */
+static enum slab_result add_file(struct slab_arguments *arguments, const char *path,
+                                 const struct reader *from, int depth, struct slab_error *error) {
+  struct slab_error where = {{0}};
+  if (from) slab_fail(&where, SLAB_BAD, "%s: line %d: ", from->path, from->line);
+  if (!*path)
+    return slab_fail(error, SLAB_BAD, "%s@: a file's name must follow, as in @FILE", where.text);
+  if (depth > MAX_DEPTH)
+    return slab_fail(error, SLAB_BAD, "%s@%s: files name files more than %d deep", where.text, path,
+                     MAX_DEPTH);
+  struct reader reader = {.path = path, .file = fopen(path, "re"), .line = 1};
+  if (!reader.file)
+    return slab_fail(error, SLAB_IO, "%s@%s: %s", where.text, path, strerror(errno));
+  enum slab_result result = add_words(arguments, &reader, depth, error);
+  fclose(reader.file);
+  return result;
+}
+
+enum slab_result slab_arguments_expand(int argc, char **argv, struct slab_arguments *arguments,
+                                       struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  for (int k = 0; result == SLAB_OK && k < argc; ++k) {
+    if (k > 0 && argv[k][0] == '@')
+      result = add_file(arguments, argv[k] + 1, NULL, 1, error);
+    else
+      result = add(arguments, strdup(argv[k]), error);
+  }
+  return result;
+}
+
+void slab_arguments_free(struct slab_arguments *arguments) {
+  for (int k = 0; k < arguments->count; ++k) free(arguments->words[k]);
+  free(arguments->words);
+  *arguments = (struct slab_arguments){0};
+}

@@ -1,0 +1,16 @@
+/* main.c - renderslab: lights things with slabs. A table of subcommands; each
+ * lives in its own cmd_NAME.c. */
+#include "commands.h"
+#include "slab_cli.h"
+
+static const struct cli_command commands[] = {{0}};
+
+static const struct cli_program renderslab = {
+    .name = "renderslab",
+    .summary = "Light things with slabs: the reference renderer of canned light sources.",
+    .commands = commands,
+    .exit_status = "0 done, 1 failed, 2 usage"};
+
+int main(int argc, char **argv) {
+  return cli_main(&renderslab, argc, argv);
+}

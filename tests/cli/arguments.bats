@@ -1,0 +1,99 @@
+#!/usr/bin/env bats
+# @FILE on the command line: further arguments from FILE, words as in a shell.
+
+bats_require_minimum_version 1.5.0
+load slab
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return
+  raw_slab a.tif '[1, 1, 1, 1]' 1 1 '' 3f800000
+}
+
+# The arguments that `convert` records, after the first.
+recorded() {
+  "$BAKESLAB" convert -q "$@"
+  "$BAKESLAB" info --json out.exr | sed -n 's/^ *"command": "bakeslab convert -q \(.*\)",*$/\1/p'
+}
+
+@test "words: blanks, quotes, backslashes, comments, line ends" {
+  cp a.tif "it's a \"slab\" #1.tif"
+  cat >b <<'END'
+# -o nothing.exr
+  -o	out.exr   # the rest of the line
+--uv=1'x'"1" \
+--st 1\
+x1
+END
+  printf '%s\r\n' '"it'"'"'s a \"slab\" #1.tif"' >c
+  run recorded @b @c
+  [ "$status" -eq 0 ]
+  quoted="'it'\\\\''s a \\\"slab\\\" #1.tif'" # for a shell, and that for JSON
+  [ "$output" = "-o out.exr --uv=1x1 --st 1x1 $quoted" ]
+  printf '%s' "'it'\\''s a '\"\\\"slab\\\"\"\\ \\#1.tif -o out.exr" >d
+  [ "$(recorded @d)" = "$quoted -o out.exr" ]
+}
+
+@test "both programs take their command from a file, and an empty file says nothing" {
+  : >nothing
+  echo info a.tif >b
+  run --separate-stderr "$BAKESLAB" @nothing @b @nothing
+  [ "$status" -eq 0 ]
+  [[ $output == "a.tif: page 1 of 1"* ]]
+  echo --version >b
+  [ "$("$RENDERSLAB" @b)" = "$("$RENDERSLAB" --version)" ]
+}
+
+@test "an empty word and a quoted @ are words" {
+  printf '""' >b
+  run --separate-stderr "$BAKESLAB" info @b
+  refused 1 "No such file"
+  for word in "'@x.tif'" '"@x.tif"' '\@x.tif' '@"x.tif"' 'info@x'; do
+    echo "$word" >b
+    run --separate-stderr "$BAKESLAB" info @b
+    case $word in
+    @*) refused 2 "b: line 1: @x.tif: No such file" ;;
+    info*) refused 1 "info@x: No such file" ;;
+    *) refused 1 "bakeslab: @x.tif: No such file" ;;
+    esac
+  done
+}
+
+@test "files name files, 8 deep" {
+  echo a.tif >f8
+  for k in 1 2 3 4 5 6 7; do echo "@f$((k + 1))" >f$k; done
+  run --separate-stderr "$BAKESLAB" info @f1
+  [ "$status" -eq 0 ]
+  echo @f1 >f0
+  run --separate-stderr "$BAKESLAB" info @f0
+  refused 2 "f7: line 1: @f8: files name files more than 8 deep"
+  printf '\n\n@self\n' >self
+  run --separate-stderr "$BAKESLAB" info @self
+  refused 2 "self: line 3: @self"
+}
+
+@test "what cannot be read is one line with the file and the line" {
+  run --separate-stderr "$BAKESLAB" info @none
+  refused 2 "@none: No such file"
+  run --separate-stderr "$BAKESLAB" info @
+  refused 2 "@: a file's name must follow"
+  run --separate-stderr "$BAKESLAB" info @.
+  refused 2 ".: line 1: Is a directory"
+  printf '# one\na.tif @none\n' >b
+  run --separate-stderr "$RENDERSLAB" @b
+  [ "$status" -eq 2 ]
+  [ "$stderr" = "renderslab: b: line 2: @none: No such file or directory" ]
+  printf '\n"a.tif\n\n' >b
+  run --separate-stderr "$BAKESLAB" info @b
+  refused 2 "b: line 2: this double quote is never closed"
+  printf "a 'b\n\n' 'c\n\n" >b
+  run --separate-stderr "$BAKESLAB" info @b
+  refused 2 "b: line 3: this single quote is never closed"
+  printf 'a.tif \\' >b
+  run --separate-stderr "$BAKESLAB" info @b
+  refused 2 "b: line 1: ends in a backslash"
+  printf 'a.tif\n\nx\0y' >b
+  run --separate-stderr "$BAKESLAB" info @b
+  refused 2 "b: line 3: has a zero byte"
+  run --separate-stderr "$BAKESLAB" info @a.tif
+  refused 2 "a.tif: line 1: has a zero byte"
+}
