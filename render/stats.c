@@ -8,18 +8,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "slab_output.h"
-
-static double now(void) {
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
+#include "slab_progress.h"
 
 void stats_phase(struct stats *stats, const char *name) {
-  double time = now();
+  double time = progress_now();
   if (stats->start > 0) stats->phases[stats->phase_count - 1].seconds += time - stats->start;
   stats->start = name ? time : 0;
   if (name && stats->phase_count < STATS_PHASES)

@@ -1,0 +1,19 @@
+/* preview.h - a picture for the screen: 8-bit sRGB in a PNG, by libpng. */
+#ifndef PREVIEW_H
+#define PREVIEW_H
+
+#include "slab_exr.h"
+
+/* The radiance that becomes white unless somebody chooses: 99 % of the pixels, by their
+ * brightest channel, are at most 0.9 times as bright. 1 where the picture is black.
+ * Fails without memory. */
+enum slab_result preview_exposure(const struct slab_picture *picture, double *white,
+                                  struct slab_error *error);
+
+/* Writes the picture, radiance `white` as white, whole or not at all; what is darker than
+ * black or brighter than white is clipped. Text chunks "Comment" and "Exposure" keep the
+ * comment and `white`. */
+enum slab_result preview_write(const char *path, const struct slab_picture *picture, double white,
+                               const char *comment, struct slab_error *error);
+
+#endif
