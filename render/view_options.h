@@ -1,0 +1,23 @@
+/* view_options.h - what the commands that show a mesh share on the command line: the mesh,
+ * the camera, the size of the picture and its background. */
+#ifndef VIEW_OPTIONS_H
+#define VIEW_OPTIONS_H
+
+#include <argp.h>
+#include <stdbool.h>
+
+#include "camera.h"
+
+struct view_options {
+  const char *mesh;
+  bool camera_given;
+  struct camera camera;
+  int size[2];          /* 640 x 480 */
+  double background[3]; /* black */
+};
+
+/* For the `children` of a command's argp, with a struct view_options as input. It takes the
+ * command's only argument, the mesh; mistakes end in argp_error. */
+extern const struct argp view_options_argp;
+
+#endif
