@@ -14,15 +14,16 @@ enum { MAX_DEPTH = 8 };
 struct reader {
   const char *path;
   FILE *file;
+  bool peeked;
+  int ahead;  /* where peeked */
   int line;   /* of the last character */
   int opened; /* line of the last quote that was opened */
 };
 
-/* A word that grows. */
+/* A word that grows; it has a zero at its end when all of it is there. */
 struct word {
   char *text;
   size_t length, room;
-  bool file; /* starts with an unquoted @ */
 };
 
 static enum slab_result no_memory(struct slab_error *error) {
@@ -30,15 +31,14 @@ static enum slab_result no_memory(struct slab_error *error) {
 }
 
 static enum slab_result append(struct word *word, int c, struct slab_error *error) {
-  if (word->length + 1 >= word->room) {
+  if (word->length == word->room) {
     size_t room = word->room ? 2 * word->room : 64;
     char *text = realloc(word->text, room);
     if (!text) return no_memory(error);
     word->text = text;
     word->room = room;
   }
-  if (c != EOF) word->text[word->length++] = (char)c;
-  word->text[word->length] = 0;
+  word->text[word->length++] = (char)c;
   return SLAB_OK;
 }
 
@@ -58,8 +58,25 @@ static enum slab_result add(struct slab_arguments *arguments, char *text,
   return SLAB_OK;
 }
 
-static int next(struct reader *reader) {
+/* The character that next() will read; a line may end in CR LF. */
+static int peek(struct reader *reader) {
+  if (reader->peeked) return reader->ahead;
   int c = getc(reader->file);
+  if (c == '\r') {
+    int after = getc(reader->file);
+    if (after == '\n')
+      c = after;
+    else
+      ungetc(after, reader->file);
+  }
+  reader->peeked = true;
+  reader->ahead = c;
+  return c;
+}
+
+static int next(struct reader *reader) {
+  int c = peek(reader);
+  reader->peeked = false;
   if (c == '\n') ++reader->line;
   return c;
 }
@@ -71,6 +88,7 @@ static bool is_blank(int c) {
 /* The character after a backslash in `quote`, or outside quotes where that is 0. */
 static enum slab_result read_escaped(struct reader *reader, struct word *word, int quote,
                                      struct slab_error *error) {
+  if (peek(reader) == 0) return SLAB_OK; /* refused like any other */
   int c = next(reader);
   if (c == '\n') return SLAB_OK;
   if (c == EOF)
@@ -79,16 +97,14 @@ static enum slab_result read_escaped(struct reader *reader, struct word *word, i
                              reader->line);
   enum slab_result result = SLAB_OK;
   if (quote && !strchr("\"\\$`", c)) result = append(word, '\\', error);
-  if (c == 0) ungetc(c, reader->file); /* refused like any other */
-  return result == SLAB_OK && c ? append(word, c, error) : result;
+  return result == SLAB_OK ? append(word, c, error) : result;
 }
 
-/* Reads on to the end of a word whose first character is c. */
+/* Reads on to the end of a word, from its character c, which ends it where it is blank. */
 static enum slab_result read_word(struct reader *reader, int c, struct word *word,
                                   struct slab_error *error) {
   int quote = 0;
-  word->file = c == '@';
-  enum slab_result result = append(word, EOF, error);
+  enum slab_result result = SLAB_OK;
   for (; result == SLAB_OK && c != EOF && (quote || !is_blank(c)); c = next(reader)) {
     if (c == 0)
       return slab_fail(error, SLAB_BAD, "%s: line %d: has a zero byte; it should be text",
@@ -103,9 +119,9 @@ static enum slab_result read_word(struct reader *reader, int c, struct word *wor
     }
   }
   if (result == SLAB_OK && quote && !ferror(reader->file))
-    result = slab_fail(error, SLAB_BAD, "%s: line %d: this %s quote is never closed", reader->path,
-                       reader->opened, quote == '"' ? "double" : "single");
-  return result;
+    return slab_fail(error, SLAB_BAD, "%s: line %d: this %s quote is never closed", reader->path,
+                     reader->opened, quote == '"' ? "double" : "single");
+  return result == SLAB_OK ? append(word, 0, error) : result;
 }
 
 static enum slab_result add_file(struct slab_arguments *arguments, const char *path,
@@ -116,18 +132,22 @@ static enum slab_result add_words(struct slab_arguments *arguments, struct reade
   enum slab_result result = SLAB_OK;
   for (int c = next(reader); result == SLAB_OK && c != EOF; c = next(reader)) {
     if (is_blank(c)) continue;
+    if (c == '\\' && peek(reader) == '\n') {
+      next(reader);
+      continue;
+    }
     if (c == '#') {
       while (c != '\n' && c != EOF) c = next(reader);
       continue;
     }
     struct word word = {0};
     const struct reader here = *reader; /* messages tell where the word starts */
-    result = read_word(reader, c, &word, error);
-    if (result == SLAB_OK && !word.file) {
-      result = add(arguments, word.text, error);
-      continue;
-    }
-    if (result == SLAB_OK) result = add_file(arguments, word.text + 1, &here, depth + 1, error);
+    bool file = c == '@';
+    result = read_word(reader, file ? next(reader) : c, &word, error);
+    if (result == SLAB_OK && file)
+      result = add_file(arguments, word.text, &here, depth + 1, error);
+    else if (result == SLAB_OK)
+      result = add(arguments, strdup(word.text), error);
     free(word.text);
   }
   if (result == SLAB_OK && ferror(reader->file))

@@ -20,11 +20,14 @@ recorded() {
   cat >b <<'END'
 # -o nothing.exr
   -o	out.exr   # the rest of the line
---uv=1'x'"1" \
---st 1\
-x1
+\
+  --uv=1'x'"1" \
+  \
+  --st 1\
+x1 \
+# another
 END
-  printf '%s\r\n' '"it'"'"'s a \"slab\" #1.tif"' >c
+  printf '%s\r\n' "\\" "  \\" '"it'"'"'s a \"slab\" #1.tif"' >c
   run recorded @b @c
   [ "$status" -eq 0 ]
   quoted="'it'\\\\''s a \\\"slab\\\" #1.tif'" # for a shell, and that for JSON
@@ -81,6 +84,7 @@ END
   printf '# one\na.tif @none\n' >b
   run --separate-stderr "$RENDERSLAB" @b
   [ "$status" -eq 2 ]
+  # shellcheck disable=SC2154 # run sets it
   [ "$stderr" = "renderslab: b: line 2: @none: No such file or directory" ]
   printf '\n"a.tif\n\n' >b
   run --separate-stderr "$BAKESLAB" info @b
@@ -88,9 +92,12 @@ END
   printf "a 'b\n\n' 'c\n\n" >b
   run --separate-stderr "$BAKESLAB" info @b
   refused 2 "b: line 3: this single quote is never closed"
-  printf 'a.tif \\' >b
+  printf '%s' "a.tif \\" >b
   run --separate-stderr "$BAKESLAB" info @b
   refused 2 "b: line 1: ends in a backslash"
+  printf '@\n' >b
+  run --separate-stderr "$BAKESLAB" info @b
+  refused 2 "b: line 1: @: a file's name must follow"
   printf 'a.tif\n\nx\0y' >b
   run --separate-stderr "$BAKESLAB" info @b
   refused 2 "b: line 3: has a zero byte"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bats
 # What both programs do alike: usage errors are one line, help, versions.
 
+# shellcheck disable=SC2154 # run sets stderr and stderr_lines
 bats_require_minimum_version 1.5.0
-load slab
 
 @test "usage errors are one line, from argp and from getopt" {
   for arguments in "" "frobnicate" "help frobnicate" "info" "info a b" "info --nonsense a" "info -x a" \
