@@ -124,8 +124,10 @@ enum slab_result slab_check(const struct slab *slab, struct slab_error *error) {
 enum slab_result slab_alloc(struct slab *slab, struct slab_error *error) {
   enum slab_result result = check_samples(slab, error);
   if (result != SLAB_OK) return result;
-  size_t count = slab_sample_count(slab);
-  float *rgb = count <= SIZE_MAX / (3 * sizeof(float)) ? calloc(count, 3 * sizeof(float)) : NULL;
+  size_t count = slab_sample_count(slab), pixel = 3 * sizeof(float);
+  float *rgb = count < SIZE_MAX / pixel - SLAB_PADDING
+                   ? calloc(1, count * pixel + SLAB_PADDING * sizeof(float))
+                   : NULL;
   if (!rgb)
     return slab_fail(error, SLAB_MEMORY, "out of memory for %d x %d x %d x %d samples",
                      slab->samples[0], slab->samples[1], slab->samples[2], slab->samples[3]);

@@ -26,6 +26,7 @@ extern "C" {
 
 enum { SLAB_U, SLAB_V, SLAB_S, SLAB_T, SLAB_AXES }; /* indices into samples[] */
 enum { SLAB_NAME_SIZE = 128, SLAB_UNIT_SIZE = 16 };
+enum { SLAB_PADDING = 8 }; /* floats behind the last sample, so that vectors may be read there */
 
 struct slab {
   char name[SLAB_NAME_SIZE];
@@ -53,7 +54,7 @@ void slab_free(struct slab *slab); /* frees what it owns and zeroes it */
  * Says what is wrong without naming a file. */
 enum slab_result slab_check(const struct slab *slab, struct slab_error *error);
 
-/* Allocates zeroed samples; the size is checked before it is multiplied. */
+/* Allocates zeroed samples and padding; the size is checked before it is multiplied. */
 enum slab_result slab_alloc(struct slab *slab, struct slab_error *error);
 
 /* Deep copy of the geometry and the JSON, without samples. */

@@ -1,0 +1,266 @@
+/* gather.c - see gather.h. Receivers of a tile look at a page together: their sums are
+ * prepared, then taken in the order of the page's rows. */
+#include "gather.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cells.h"
+#include "closed.h"
+#include "occlusion.h"
+#include "paper.h"
+#include "visible.h"
+
+/* Sums that are taken together. */
+enum { TOGETHER = 64 };
+
+/* The order rule bounds a micro light's error by its own light. Sums of samples of both signs
+ * can be smaller than their parts, and users compare digits: the reference aims lower. */
+static const double reference_margin = 1e-3;
+
+struct gather {
+  const struct gather_settings *settings;
+  struct gather_counts counts;
+  struct cells_counts cell_counts;
+  struct rule_orders orders;
+  struct strips whole[2], part[2]; /* what a receiver sees of a page; behind occluders */
+  struct rule_nodes nodes[2];      /* of the method closed */
+  struct visible visible;
+  struct cells_scratch scratch;
+  struct cells sums[TOGETHER];
+  int receiver[TOGETHER]; /* whose sum it is */
+  int waiting;            /* sums that are prepared */
+};
+
+static const char *const method_names[GATHER_METHODS] = {
+    [GATHER_AUTO] = "auto",   [GATHER_REFERENCE] = "reference",
+    [GATHER_PAPER] = "paper", [GATHER_MIDPOINT] = "midpoint",
+    [GATHER_PI] = "pi",       [GATHER_CLOSED] = "closed",
+    [GATHER_VIEWS] = "views",
+};
+
+const char *gather_method_name(enum gather_method method) {
+  return method_names[method];
+}
+
+bool gather_method_parse(const char *name, enum gather_method *method) {
+  for (int k = 0; k < GATHER_METHODS; ++k)
+    if (!strcmp(name, method_names[k])) {
+      *method = (enum gather_method)k;
+      return true;
+    }
+  return false;
+}
+
+enum slab_result gather_create(const struct gather_settings *settings, struct gather **gather,
+                               struct slab_error *error) {
+  struct gather *made = calloc(1, sizeof *made);
+  if (!made) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  made->settings = settings;
+  made->orders = rule_orders(settings->tolerance *
+                             (settings->method == GATHER_REFERENCE ? reference_margin : 1));
+  *gather = made;
+  return SLAB_OK;
+}
+
+void gather_free(struct gather *gather) {
+  if (!gather) return;
+  for (int axis = 0; axis < 2; ++axis) {
+    strips_free(&gather->whole[axis]);
+    strips_free(&gather->part[axis]);
+    rule_nodes_free(&gather->nodes[axis]);
+  }
+  for (int k = 0; k < TOGETHER; ++k) cells_free(&gather->sums[k]);
+  cells_scratch_free(&gather->scratch);
+  visible_free(&gather->visible);
+  free(gather);
+}
+
+const struct gather_counts *gather_counts(const struct gather *gather) {
+  return &gather->counts;
+}
+
+static void add(struct gathered *gathered, const double irradiance[3], const double gloss[3],
+                double gain) {
+  for (int c = 0; c < 3; ++c) {
+    gathered->irradiance[c] += gain * irradiance[c];
+    gathered->gloss[c] += gain * gloss[c];
+  }
+}
+
+/* Takes the sums that are waiting, strip of views by strip of views. */
+static enum slab_result take_sums(struct gather *gather, double gain, struct gathered *gathered,
+                                  struct slab_error *error) {
+  int views = 0;
+  for (int k = 0; k < gather->waiting; ++k) {
+    enum slab_result result = cells_scratch_reserve(&gather->scratch, &gather->sums[k], error);
+    if (result != SLAB_OK) return result;
+    views = gather->sums[k].view.page->axes[1].near_count;
+  }
+  for (int view = 0; view < views; ++view)
+    for (int k = 0; k < gather->waiting; ++k) {
+      struct cells *sum = &gather->sums[k];
+      const struct strips *rows = &sum->nodes[1].strips;
+      while (sum->row < rows->count && rows->strip[sum->row].taps.near <= view)
+        cells_sum_row(sum, &gather->scratch, &gather->cell_counts);
+    }
+  for (int k = 0; k < gather->waiting; ++k) {
+    double irradiance[3], gloss[3];
+    cells_result(&gather->sums[k], irradiance, gloss);
+    add(&gathered[gather->receiver[k]], irradiance, gloss, gain);
+  }
+  gather->waiting = 0;
+  return SLAB_OK;
+}
+
+/* The rule `pi` takes the kernel from the middle of a micro light. Over a strip of half width
+ * h the kernel's curvature changes the mean by at most 5/3 h^2, and its slope, together with
+ * the radiance's, by about h/2 times the change of radiance over the strip; of the latter
+ * the sum over N micro lights keeps the share 1/sqrt(N). */
+static double pi_error(const struct strips strips[2]) {
+  double widest = 0, count = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    count *= strips[axis].count;
+    for (int k = 0; k < strips[axis].count; ++k)
+      widest = fmax(widest, strips[axis].strip[k].high - strips[axis].strip[k].low);
+  }
+  double half = widest / 2;
+  return 5.0 / 3 * half * half + half / 2 / sqrt(count);
+}
+
+static enum gather_method choose(struct gather *gather, const struct strips strips[2]) {
+  enum gather_method method = gather->settings->method;
+  double error = gather->settings->tolerance;
+  if (method == GATHER_AUTO || method == GATHER_PI || method == GATHER_MIDPOINT) {
+    double single = pi_error(strips);
+    if (method == GATHER_AUTO) method = single <= error ? GATHER_PI : GATHER_REFERENCE;
+    if (method != GATHER_REFERENCE) error = single;
+  }
+  gather->counts.error = fmax(gather->counts.error, error);
+  return method;
+}
+
+/* Sums the micro lights between `strips`: at once, or puts it with those that wait. */
+static enum slab_result sum(struct gather *gather, const struct view *view,
+                            const struct strips strips[2], enum gather_method method,
+                            const struct receiver *receiver, int index, double gain,
+                            struct gathered *gathered, struct slab_error *error) {
+  double irradiance[3] = {0}, gloss[3] = {0};
+  enum slab_result result = SLAB_OK;
+  switch (method) {
+  case GATHER_PAPER:
+    paper_sum(view, strips, gather->settings->seed ^ receiver->index * 0xd1342543de82ef95u,
+              irradiance, gloss, &gather->cell_counts);
+    add(&gathered[index], irradiance, gloss, gain);
+    return SLAB_OK;
+  case GATHER_CLOSED:
+    result = closed_sum(view, strips, gather->nodes, irradiance, &gather->cell_counts, error);
+    add(&gathered[index], irradiance, gloss, gain);
+    return result;
+  default:
+    break;
+  }
+  if (gather->waiting == TOGETHER) result = take_sums(gather, gain, gathered, error);
+  if (result != SLAB_OK) return result;
+  enum cells_kind kind = method == GATHER_VIEWS       ? CELLS_VIEWS
+                         : method == GATHER_REFERENCE ? CELLS_GAUSS
+                                                      : CELLS_SINGLE;
+  enum rule rule = method == GATHER_REFERENCE ? RULE_GAUSS
+                   : method == GATHER_PI      ? RULE_PI
+                                              : RULE_MIDPOINT;
+  gather->receiver[gather->waiting] = index;
+  return cells_prepare(&gather->sums[gather->waiting++], view, strips, kind, rule, &gather->orders,
+                       error);
+}
+
+static enum slab_result find_visible(struct gather *gather, const struct view *view,
+                                     const struct receiver *receiver, struct slab_error *error) {
+  const struct strips *whole = gather->whole;
+  struct visible_query query = {.occlusion = gather->settings->occlusion,
+                                .grid = gather->settings->shadow_grid,
+                                .edge = gather->settings->shadow_edge};
+  occlusion_lift(query.occlusion, receiver->position, receiver->lift, query.lifted);
+  for (int axis = 0; axis < 2; ++axis) {
+    query.whole.low[axis] = whole[axis].strip[0].low;
+    query.whole.high[axis] = whole[axis].strip[whole[axis].count - 1].high;
+    for (int c = 0; c < 3; ++c) query.along[axis][c] = view->height * view->page->frame[axis][c];
+  }
+  for (int c = 0; c < 3; ++c)
+    query.origin[c] = receiver->position[c] - view->height * view->page->frame[2][c];
+  return visible_find(&query, &gather->visible, error);
+}
+
+/* The strips within a visible rectangle; of views, those whose middle is. */
+static enum slab_result clip(struct gather *gather, const struct visible_rectangle *rectangle,
+                             bool views, struct slab_error *error) {
+  for (int axis = 0; axis < 2; ++axis) {
+    struct strips *part = &gather->part[axis];
+    const struct strips *whole = &gather->whole[axis];
+    enum slab_result result = SLAB_OK;
+    double low = rectangle->low[axis], high = rectangle->high[axis];
+    part->count = 0;
+    if (!views) result = strips_clip(whole, low, high, part, error);
+    for (int k = 0; views && k < whole->count && result == SLAB_OK; ++k) {
+      double middle = (whole->strip[k].low + whole->strip[k].high) / 2;
+      if (middle >= low && middle < high) result = strips_append(part, &whole->strip[k], error);
+    }
+    if (result != SLAB_OK) return result;
+  }
+  return SLAB_OK;
+}
+
+/* One receiver, one page. */
+static enum slab_result look(struct gather *gather, const struct light *light,
+                             const struct light_page *page, const struct receiver *receiver,
+                             int index, struct gathered *gathered, struct slab_error *error) {
+  struct view view;
+  struct strips *whole = gather->whole;
+  bool views = gather->settings->method == GATHER_VIEWS;
+  double low[2], high[2], range[2] = {0, 0};
+  bool faces = view_find(page, receiver, &view);
+  enum slab_result result = faces ? view_strips(&view, views, whole, error) : SLAB_OK;
+  if (result != SLAB_OK) return result;
+  if (faces && (whole[0].count == 0 || whole[1].count == 0)) return SLAB_OK;
+  for (int axis = 0; faces && axis < 2; ++axis) {
+    low[axis] = whole[axis].strip[0].low;
+    high[axis] = whole[axis].strip[whole[axis].count - 1].high;
+  }
+  if (faces) kernel_heights(&view.kernel, low, high, range);
+  if (!(range[1] > 0)) {
+    ++gather->counts.pages_behind;
+    return SLAB_OK;
+  }
+  enum gather_method method = choose(gather, whole);
+  if (!gather->settings->occlusion)
+    return sum(gather, &view, whole, method, receiver, index, light->gain, gathered, error);
+  result = find_visible(gather, &view, receiver, error);
+  for (int k = 0; k < gather->visible.count && result == SLAB_OK; ++k) {
+    result = clip(gather, &gather->visible.rectangles[k], views, error);
+    if (result == SLAB_OK && gather->part[0].count > 0 && gather->part[1].count > 0)
+      result =
+          sum(gather, &view, gather->part, method, receiver, index, light->gain, gathered, error);
+  }
+  return result;
+}
+
+enum slab_result gather_light(struct gather *gather, const struct receiver *receivers, int count,
+                              struct gathered *gathered, struct slab_error *error) {
+  const struct gather_settings *settings = gather->settings;
+  enum slab_result result = SLAB_OK;
+  memset(gathered, 0, (size_t)count * sizeof *gathered);
+  gather->waiting = 0;
+  for (int l = 0; l < settings->light_count; ++l) {
+    const struct light *light = &settings->lights[l];
+    for (int page = 0; page < light->count && result == SLAB_OK; ++page) {
+      for (int k = 0; k < count && result == SLAB_OK; ++k)
+        result = look(gather, light, &light->pages[page], &receivers[k], k, gathered, error);
+      if (result == SLAB_OK) result = take_sums(gather, light->gain, gathered, error);
+    }
+  }
+  gather->counts.receivers += (uint64_t)count;
+  gather->counts.microlights = gather->cell_counts.microlights;
+  gather->counts.nodes = gather->cell_counts.nodes;
+  gather->counts.shadow_rays = gather->visible.shadow_rays;
+  return result;
+}

@@ -1,0 +1,75 @@
+/* gather.h - the light that receivers gather from all pages of all lights (the paper's
+ * section 4.1): the sum over the visible micro lights by one of several methods. */
+#ifndef GATHER_H
+#define GATHER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "light.h"
+
+struct occlusion;
+
+enum gather_method {
+  GATHER_AUTO,      /* the cheapest that meets the tolerance */
+  GATHER_REFERENCE, /* Gauss rules whose order follows from the tolerance */
+  GATHER_PAPER,     /* one random sample a micro light, as published */
+  GATHER_MIDPOINT,  /* one in the middle */
+  GATHER_PI,        /* hat functions integrated exactly, the kernel in the middle */
+  GATHER_CLOSED,    /* closed form; matte receivers without occluders only */
+  GATHER_VIEWS,     /* one sample a view, at the uv sample: what projective textures sum
+                       (section 4.3), and POV-Ray's lights of the sheet include */
+  GATHER_METHODS
+};
+
+const char *gather_method_name(enum gather_method method);
+bool gather_method_parse(const char *name, enum gather_method *method);
+
+/* Someone in the scene who gathers light. `index` seeds the method `paper`. */
+struct receiver {
+  double position[3], normal[3]; /* scene space; normal unit */
+  double lift[3];                /* unit geometric normal, along which shadow rays start */
+  double eye[3];                 /* unit, towards who looks; for gloss only */
+  double shininess;              /* exponent of the highlight; 0: matte */
+  uint64_t index;
+};
+
+struct gathered {
+  double irradiance[3];
+  double gloss[3]; /* integral of L (N.H)^shininess over the solid angle above the tangent
+                      plane; 0 for matte receivers */
+};
+
+struct gather_counts {
+  uint64_t receivers;
+  uint64_t microlights; /* visited */
+  uint64_t nodes;       /* at which the kernel was evaluated */
+  uint64_t shadow_rays;
+  uint64_t pages_behind; /* pages that were skipped: the receiver is behind them or they are
+                            below its tangent plane */
+  double error;          /* largest predicted relative error of a receiver's matte light */
+};
+
+struct gather_settings {
+  const struct light *lights;
+  int light_count;
+  enum gather_method method;
+  double tolerance;                  /* relative */
+  uint64_t seed;                     /* of method paper */
+  const struct occlusion *occlusion; /* NULL: nothing casts shadows */
+  int shadow_grid, shadow_edge;      /* visible.h */
+};
+
+/* Scratch memory of one thread. */
+struct gather; /* owned by whoever created it; keeps a pointer to the settings */
+enum slab_result gather_create(const struct gather_settings *settings, struct gather **gather,
+                               struct slab_error *error);
+void gather_free(struct gather *gather); /* NULL allowed */
+const struct gather_counts *gather_counts(const struct gather *gather);
+
+/* What `count` receivers gather; fast where they lie near each other (a tile). The result for
+ * a receiver depends on nothing but itself. */
+enum slab_result gather_light(struct gather *gather, const struct receiver *receivers, int count,
+                              struct gathered *gathered, struct slab_error *error);
+
+#endif

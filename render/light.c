@@ -1,0 +1,208 @@
+/* light.c - see light.h. */
+#include "light.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "light_text.h"
+#include "slab_file.h"
+#include "vector.h"
+
+/* How far from a similarity a matrix may be: people print it with a few digits. */
+static const double matrix_tolerance = 1e-6;
+
+static void turn(const double matrix[4][3], const double from[3], double to[3]) {
+  for (int c = 0; c < 3; ++c)
+    to[c] = from[0] * matrix[0][c] + from[1] * matrix[1][c] + from[2] * matrix[2][c];
+}
+
+/* Makes `along` perpendicular to the unit `axis` and unit; false where it has no such part. */
+static bool straighten(double along[3], const double axis[3]) {
+  double part = vector_dot(along, axis), length = vector_length(along);
+  for (int c = 0; c < 3; ++c) along[c] -= part * axis[c];
+  return vector_length(along) > 1e-9 * length && vector_normalise(along);
+}
+
+/* The turning that takes the page's normal to `forward` and its v as nearly to `up` as it can:
+ * rows are the images of x, y and z. */
+static void find_turning(const struct slab *page, const double forward[3], const double up[3],
+                         double matrix[4][3]) {
+  double from[3][3], to[3][3];
+  memcpy(from[0], page->normal, sizeof from[0]);
+  memcpy(from[1], page->v, sizeof from[1]);
+  memcpy(to[0], forward, sizeof to[0]);
+  memcpy(to[1], up, sizeof to[1]);
+  vector_normalise(from[0]);
+  straighten(from[1], from[0]);
+  if (!straighten(to[1], to[0])) { /* up is along the light: any other axis */
+    int least = 0;
+    for (int c = 1; c < 3; ++c)
+      if (fabs(forward[c]) < fabs(forward[least])) least = c;
+    for (int c = 0; c < 3; ++c) to[1][c] = c == least;
+    straighten(to[1], to[0]);
+  }
+  vector_cross(from[0], from[1], from[2]);
+  vector_cross(to[0], to[1], to[2]);
+  for (int row = 0; row < 3; ++row)
+    for (int c = 0; c < 3; ++c)
+      matrix[row][c] = from[0][row] * to[0][c] + from[1][row] * to[1][c] + from[2][row] * to[2][c];
+}
+
+static enum slab_result check_matrix(const char *text, double matrix[4][3], double *scale,
+                                     struct slab_error *error) {
+  double length[3];
+  for (int row = 0; row < 3; ++row) length[row] = vector_length(matrix[row]);
+  double across[3];
+  vector_cross(matrix[0], matrix[1], across);
+  double volume = fabs(vector_dot(across, matrix[2])), box = length[0] * length[1] * length[2];
+  if (!(volume > 1e-9 * box))
+    return slab_fail(error, SLAB_BAD, "--light %s: the matrix is singular", text);
+  *scale = cbrt(volume);
+  for (int row = 0; row < 3; ++row) {
+    const double *other = matrix[(row + 1) % 3];
+    if (fabs(length[row] / *scale - 1) > matrix_tolerance ||
+        fabs(vector_dot(matrix[row], other)) > matrix_tolerance * *scale * *scale)
+      return slab_fail(error, SLAB_BAD,
+                       "--light %s: the matrix must turn, mirror, move and scale evenly: other "
+                       "distortions leave no light slab",
+                       text);
+  }
+  return SLAB_OK;
+}
+
+static enum slab_result place(const char *text, const struct light_text *where, struct light *light,
+                              struct slab_error *error) {
+  static const double still[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  double forward[3], scale = 1;
+  enum slab_result result = SLAB_OK;
+  memcpy(light->matrix, still, sizeof still);
+  memcpy(light->matrix[3], where->at, sizeof where->at);
+  memcpy(forward, light->pages[0].slab.normal, sizeof forward);
+  if (where->has_matrix) {
+    memcpy(light->matrix, where->matrix, sizeof where->matrix);
+    result = check_matrix(text, light->matrix, &scale, error);
+  } else if (where->has_toward) {
+    vector_subtract(where->toward, where->at, forward);
+    if (!vector_normalise(forward))
+      result = slab_fail(error, SLAB_BAD, "--light %s: toward= is at=: no direction", text);
+  }
+  if (result == SLAB_OK && where->has_up && !(vector_length(where->up) > 0))
+    result = slab_fail(error, SLAB_BAD, "--light %s: up= has no direction", text);
+  if (result == SLAB_OK && (where->has_toward || where->has_up))
+    find_turning(&light->pages[0].slab, forward, where->up, light->matrix);
+  for (int row = 0; row < 3; ++row)
+    for (int c = 0; c < 3; ++c) light->matrix[row][c] *= where->scale;
+  light->scale = scale * where->scale;
+  light->gain = where->gain;
+  return result;
+}
+
+static void set_axis(const struct slab *slab, int axis, double scale, struct light_axis *out) {
+  int near = axis ? SLAB_V : SLAB_U, far = axis ? SLAB_T : SLAB_S;
+  out->near_count = slab->samples[near];
+  out->far_count = slab->samples[far];
+  out->half = scale * vector_length(axis ? slab->v : slab->u) / 2;
+  out->near_step = 2 * out->half / out->near_count;
+  out->far_low = slab->st_window[2 * axis];
+  out->far_high = slab->st_window[2 * axis + 1];
+  out->far_step = (out->far_high - out->far_low) / out->far_count;
+  out->kappa = slab_kappa(slab) / scale;
+}
+
+static enum slab_result set_page(const char *text, const struct light *light,
+                                 struct light_page *page, struct slab_error *error) {
+  const double *axes[3] = {page->slab.u, page->slab.v, page->slab.normal};
+  turn(light->matrix, page->slab.center, page->center);
+  bool finite = true;
+  for (int c = 0; c < 3; ++c) {
+    page->center[c] += light->matrix[3][c];
+    turn(light->matrix, axes[c], page->frame[c]);
+    finite = vector_normalise(page->frame[c]) && finite;
+    finite = isfinite(page->center[c]) && finite;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    struct light_axis *out = &page->axes[axis];
+    set_axis(&page->slab, axis, light->scale, out);
+    finite = finite && out->near_step > 0 && isfinite(out->half) && isfinite(out->kappa);
+  }
+  if (finite) return SLAB_OK;
+  return slab_fail(error, SLAB_BAD, "--light %s: placed beyond what numbers can hold", text);
+}
+
+enum slab_result light_load(const char *text, struct light *light, struct slab_error *error) {
+  struct light_text where;
+  struct slab *slabs = NULL;
+  *light = (struct light){0};
+  enum slab_result result = light_text_parse(text, &where, error);
+  if (result != SLAB_OK) return result;
+  result = slab_file_load_all(where.path, &slabs, &light->count, error);
+  if (result != SLAB_OK) goto out;
+  light->path = where.path;
+  where.path = NULL;
+  light->pages = calloc((size_t)light->count, sizeof *light->pages);
+  if (!light->pages) {
+    slab_file_free_all(slabs, light->count);
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+    goto out;
+  }
+  for (int page = 0; page < light->count; ++page) light->pages[page].slab = slabs[page];
+  free(slabs); /* the pages have taken over what they own */
+  result = place(text, &where, light, error);
+  for (int page = 0; page < light->count && result == SLAB_OK; ++page)
+    result = set_page(text, light, &light->pages[page], error);
+out:
+  light_text_free(&where);
+  if (result != SLAB_OK) light_free(light);
+  return result;
+}
+
+void light_free(struct light *light) {
+  for (int page = 0; light->pages && page < light->count; ++page)
+    slab_free(&light->pages[page].slab);
+  free(light->pages);
+  free(light->path);
+  *light = (struct light){0};
+}
+
+/* Where the ray meets the page's front: the distance and the point (a, b) in scene units. */
+static double meet(const struct light_page *page, const double origin[3], const double direction[3],
+                   double point[2]) {
+  double to_center[3], along = vector_dot(direction, page->frame[2]);
+  if (!(along < 0)) return INFINITY;
+  vector_subtract(page->center, origin, to_center);
+  double distance = vector_dot(to_center, page->frame[2]) / along;
+  if (!(distance > 0)) return INFINITY;
+  for (int axis = 0; axis < 2; ++axis) {
+    point[axis] = distance * vector_dot(direction, page->frame[axis]) -
+                  vector_dot(to_center, page->frame[axis]);
+    if (!(fabs(point[axis]) <= page->axes[axis].half)) return INFINITY;
+  }
+  return distance;
+}
+
+static void add_radiance(const struct light *light, const struct light_page *page,
+                         const double direction[3], const double point[2], double rgb[3]) {
+  double seen[3], st[2], along = vector_dot(direction, page->frame[2]);
+  for (int axis = 0; axis < 2; ++axis)
+    st[axis] =
+        vector_dot(direction, page->frame[axis]) / along + page->axes[axis].kappa * point[axis];
+  slab_lookup(&page->slab, point[0] / light->scale, point[1] / light->scale, st[0], st[1], seen);
+  for (int c = 0; c < 3; ++c) rgb[c] += light->gain * seen[c];
+}
+
+double light_seen(const struct light *lights, int count, const double origin[3],
+                  const double direction[3], double limit, double rgb[3]) {
+  double nearest = INFINITY, point[2];
+  rgb[0] = rgb[1] = rgb[2] = 0;
+  for (int l = 0; l < count; ++l)
+    for (int page = 0; page < lights[l].count; ++page)
+      nearest = fmin(nearest, meet(&lights[l].pages[page], origin, direction, point));
+  if (!(nearest < limit)) return INFINITY;
+  /* Pages that share a rectangle add up. */
+  for (int l = 0; l < count; ++l)
+    for (int page = 0; page < lights[l].count; ++page)
+      if (meet(&lights[l].pages[page], origin, direction, point) <= nearest * (1 + 1e-9))
+        add_radiance(&lights[l], &lights[l].pages[page], direction, point, rgb);
+  return nearest;
+}

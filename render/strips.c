@@ -1,0 +1,193 @@
+/* strips.c - see strips.h. Line p of n samples is the p-th sample, line -1 and line n are the
+ * ends of the axis; piece p lies between the lines p-1 and p. */
+#include "strips.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+void strips_free(struct strips *strips) {
+  free(strips->strip);
+  *strips = (struct strips){0};
+}
+
+enum slab_result strips_append(struct strips *strips, const struct strip *strip,
+                               struct slab_error *error) {
+  if (strips->count == strips->room) {
+    int room = strips->room ? 2 * strips->room : 64;
+    struct strip *grown = realloc(strips->strip, (size_t)room * sizeof *grown);
+    if (!grown) return slab_fail(error, SLAB_MEMORY, "out of memory");
+    strips->strip = grown;
+    strips->room = room;
+  }
+  strips->strip[strips->count++] = *strip;
+  return SLAB_OK;
+}
+
+/* An axis as one receiver sees it. */
+struct sight {
+  const struct light_axis *axis;
+  double q, z;
+  double shift, rate; /* s = shift + rate x */
+};
+
+static double near_line(const struct light_axis *axis, int line) {
+  if (line < 0) return -axis->half;
+  if (line >= axis->near_count) return axis->half;
+  return (line + 0.5 - 0.5 * axis->near_count) * axis->near_step;
+}
+
+static double far_line(const struct light_axis *axis, int line) {
+  if (line < 0) return axis->far_low;
+  if (line >= axis->far_count) return axis->far_high;
+  return axis->far_low + (line + 0.5) * axis->far_step;
+}
+
+static double near_slope(const struct sight *sight, int line) {
+  return (near_line(sight->axis, line) - sight->q) / sight->z;
+}
+
+static double far_slope(const struct sight *sight, int line) {
+  return (far_line(sight->axis, line) - sight->shift) / sight->rate;
+}
+
+static double within(double weight) {
+  return weight > 0 ? weight < 1 ? weight : 1 : 0;
+}
+
+/* Weights of the upper samples where a ray has the slope x. */
+static double near_weight(const struct sight *sight, const struct strip_taps *taps, double x) {
+  if (!taps->near_up) return 0;
+  double from_line = sight->q - near_line(sight->axis, taps->near) + x * sight->z;
+  return within(from_line / sight->axis->near_step);
+}
+
+static double far_weight(const struct sight *sight, const struct strip_taps *taps, double x) {
+  if (!taps->far_up) return 0;
+  double from_line = sight->shift - far_line(sight->axis, taps->far) + x * sight->rate;
+  return within(from_line / sight->axis->far_step);
+}
+
+static void set_near(struct strip_taps *taps, int piece, int count) {
+  taps->near = piece > 0 ? piece - 1 : 0;
+  taps->near_up = piece > 0 && piece < count;
+}
+
+static void set_far(struct strip_taps *taps, int piece, int count) {
+  taps->far = piece > 0 ? piece - 1 : 0;
+  taps->far_up = piece > 0 && piece < count;
+}
+
+static struct sight make_sight(const struct light_axis *axis, double q, double z) {
+  double height = z > 0 ? z : DBL_MIN;
+  return (struct sight){axis, q, height, axis->kappa * q, axis->kappa * height - 1};
+}
+
+/* The piece that holds s, for a receiver on the st plane, who sees no other; -1 outside. */
+static int piece_at(const struct light_axis *axis, double s) {
+  if (!(s >= axis->far_low && s <= axis->far_high)) return -1;
+  int piece = 0;
+  while (piece < axis->far_count && s >= far_line(axis, piece)) ++piece;
+  return piece;
+}
+
+/* Slopes between which the far samples are seen, and the piece at the lower one. Ascending
+ * slopes meet the pieces in ascending order beyond the st plane, else in descending order. */
+static bool far_range(const struct sight *sight, double *low, double *high, int *piece) {
+  int count = sight->axis->far_count;
+  if (sight->rate == 0) {
+    *low = -INFINITY;
+    *high = INFINITY;
+    *piece = piece_at(sight->axis, sight->shift);
+    return *piece >= 0;
+  }
+  bool ascending = sight->rate > 0;
+  *low = far_slope(sight, ascending ? -1 : count);
+  *high = far_slope(sight, ascending ? count : -1);
+  *piece = ascending ? 0 : count;
+  return true;
+}
+
+enum slab_result strips_find(const struct light_axis *axis, double q, double z,
+                             struct strips *strips, struct slab_error *error) {
+  const struct sight sight = make_sight(axis, q, z);
+  double far_low, far_high;
+  int far, near = 0;
+  strips->count = 0;
+  if (!far_range(&sight, &far_low, &far_high, &far)) return SLAB_OK;
+  double low = fmax(near_slope(&sight, -1), far_low);
+  double high = fmin(near_slope(&sight, axis->near_count), far_high);
+  /* Ascending: the piece ends at line `far`; descending: at the line before. */
+  int ascending = sight.rate > 0, step = ascending ? 1 : -1;
+  int last = ascending ? axis->far_count : 0;
+  while (low < high) {
+    double near_end = near < axis->near_count ? near_slope(&sight, near) : INFINITY;
+    double far_end =
+        sight.rate != 0 && far != last ? far_slope(&sight, far - !ascending) : INFINITY;
+    double end = fmin(fmin(near_end, far_end), high);
+    if (end > low) {
+      struct strip strip = {.low = low, .high = end};
+      set_near(&strip.taps, near, axis->near_count);
+      set_far(&strip.taps, far, axis->far_count);
+      for (int side = 0; side < 2; ++side) {
+        double x = side ? end : low;
+        strip.near_weight[side] = near_weight(&sight, &strip.taps, x);
+        strip.far_weight[side] = far_weight(&sight, &strip.taps, x);
+      }
+      enum slab_result result = strips_append(strips, &strip, error);
+      if (result != SLAB_OK) return result;
+      low = end;
+    }
+    if (end >= high) break;
+    if (near_end <= end) ++near;
+    if (far_end <= end) far += step;
+  }
+  return SLAB_OK;
+}
+
+enum slab_result strips_find_views(const struct light_axis *axis, double q, double z,
+                                   struct strips *strips, struct slab_error *error) {
+  const struct sight sight = make_sight(axis, q, z);
+  strips->count = 0;
+  for (int i = 0; i < axis->near_count; ++i) {
+    double x = near_slope(&sight, i), half = axis->near_step / sight.z / 2;
+    int piece = isfinite(x) ? piece_at(axis, sight.shift + sight.rate * x) : -1;
+    if (piece < 0 || !isfinite(half)) continue;
+    struct strip strip = {.low = x - half, .high = x + half, .taps = {.near = i}};
+    set_far(&strip.taps, piece, axis->far_count);
+    for (int side = 0; side < 2; ++side)
+      strip.far_weight[side] = far_weight(&sight, &strip.taps, x);
+    enum slab_result result = strips_append(strips, &strip, error);
+    if (result != SLAB_OK) return result;
+  }
+  return SLAB_OK;
+}
+
+struct strip strip_part(const struct strip *strip, double low, double high) {
+  if (low <= strip->low && high >= strip->high) return *strip;
+  struct strip part = *strip;
+  part.low = fmax(low, strip->low);
+  part.high = fmin(high, strip->high);
+  double width = strip->high - strip->low;
+  for (int side = 0; side < 2; ++side) {
+    double share = ((side ? part.high : part.low) - strip->low) / width;
+    part.near_weight[side] =
+        strip->near_weight[0] + share * (strip->near_weight[1] - strip->near_weight[0]);
+    part.far_weight[side] =
+        strip->far_weight[0] + share * (strip->far_weight[1] - strip->far_weight[0]);
+  }
+  return part;
+}
+
+enum slab_result strips_clip(const struct strips *from, double low, double high,
+                             struct strips *strips, struct slab_error *error) {
+  for (int k = 0; k < from->count; ++k) {
+    const struct strip *strip = &from->strip[k];
+    if (!(strip->high > low)) continue;
+    if (!(strip->low < high)) break;
+    struct strip part = strip_part(strip, low, high);
+    enum slab_result result = strips_append(strips, &part, error);
+    if (result != SLAB_OK) return result;
+  }
+  return SLAB_OK;
+}
