@@ -77,8 +77,7 @@ static enum slab_result choose_name(const char *given, const struct slab *slab,
   enum slab_result result = slab_name_capitalise(given ? given : slab->name, name, error);
   if (result == SLAB_OK) return result;
   struct slab_error reason = *error;
-  return slab_fail(error, result, "%s; give %s with --name", reason.text,
-                   given ? "another" : "one");
+  return slab_fail(error, result, "%s; give one with --name", reason.text);
 }
 
 static const char *base_name(const char *path) {
