@@ -1,12 +1,22 @@
 /* scene.h - a mesh scene in POV-Ray's coordinates: left-handed, y up.
  *
- * OBJ+MTL, glTF and PLY by assimp; x and y are kept and z is mirrored, as is usual when such
- * meshes are brought to POV-Ray. Node transforms are applied; polygons are triangulated.
+ * OBJ+MTL, glTF (.gltf, .glb) and PLY by assimp; x and y are kept and z is mirrored, as is
+ * usual when such meshes are brought to POV-Ray. Triangles are wound so that edge01 x edge02,
+ * by components, points out where the file's did. Node transforms are applied; polygons are
+ * triangulated; lines and points are left out.
  *
  * Materials: diffuse is the reflectance (OBJ's Kd, glTF's base colour times 1 - metallic):
  * a surface shows diffuse E/pi. specular and shininess mean what OBJ's Ks and Ns and
  * POV-Ray's `specular Ks roughness 1/Ns` mean: light of radiance L from the solid angle
- * d omega adds Ks L (N.H)^Ns d omega / pi, H halfway between light and eye, without a cosine. */
+ * d omega adds Ks L (N.H)^Ns d omega / pi, H halfway between light and eye, without a cosine.
+ * glTF: Ns = 2/roughness^4 - 2 within 1..10000, Ks = (0.04 (1 - metallic) + base metallic)
+ * (Ns + 2)/8, so that a highlight seen along the normal reflects no more than the Fresnel
+ * reflectance there. PLY knows no materials: its surfaces are white, its colours unread.
+ *
+ * All surfaces are opaque and two-sided; illumination models, transparency, bump and normal
+ * maps, ambient colours and occlusion maps, lights and cameras are not read. Anything else
+ * that would change the picture is refused (or ignored, with `repair`): other textures than
+ * those of the diffuse colour, options of map_Kd, extensions and vertex colours of glTF. */
 #ifndef SCENE_H
 #define SCENE_H
 
@@ -25,7 +35,8 @@ struct scene_material {
 };
 
 struct scene_texture {
-  char *path;                  /* as the mesh names it, made relative to its folder; owned */
+  char *path;                  /* as the mesh names it, made relative to its folder; owned.
+                                  "FILE: image N" for those within a glTF file */
   struct slab_picture picture; /* linear RGB, row 0 at the top; owned */
 };
 
@@ -46,10 +57,14 @@ enum scene_needs {
   SCENE_SURFACES /* normals, materials and textures too */
 };
 
-/* Refuses, naming the file, the mesh and the triangle: NaN, triangles without area and, for
- * SCENE_SURFACES, meshes without normals or materials. With `repair` it drops such triangles,
- * gives flat normals and a white material instead (NaN is still refused) and says in
- * `note` what it did, or leaves it empty. */
+/* Refuses, naming the file, the mesh and the triangle: NaN, triangles without area (a height
+ * below single precision) and, for SCENE_SURFACES, meshes without normals or materials. With
+ * `repair` it drops such triangles, gives flat normals and a white material instead (NaN is
+ * still refused) and says in `note` what it did, or leaves it empty.
+ *
+ * For SCENE_SHAPE, normal, uv, material, materials and textures are NULL.
+ * Textures are read by the program oiiotool: floating-point files and files that say so are
+ * linear, all others sRGB. */
 enum slab_result scene_load(const char *path, enum scene_needs needs, bool repair,
                             struct scene *scene, char note[256], struct slab_error *error);
 void scene_free(struct scene *scene); /* zeroed scene allowed */

@@ -1,0 +1,178 @@
+/* scene_texture.c - images of any format, see scene_load.h. OpenImageIO is 261 libraries, so
+ * its oiiotool reads them, run as a program of its own, and hands over an EXR file. */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "scene_load.h"
+
+enum { EXEC_FAILED = 127 };
+
+/* A scratch folder: in.SUFFIX (oiiotool takes # and % in names for patterns, so it never sees
+ * the file's own), out.exr, and what oiiotool said. */
+struct scratch {
+  char folder[512];
+  char in[32];
+};
+
+static const char OUT[] = "out.exr", SAID[] = "said", ERRORS[] = "errors";
+
+static void scratch_path(const struct scratch *scratch, const char *name, char path[600]) {
+  snprintf(path, 600, "%s/%s", scratch->folder, name);
+}
+
+static void scratch_remove(const struct scratch *scratch) {
+  const char *const names[] = {scratch->in, OUT, SAID, ERRORS};
+  char path[600];
+  for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+    scratch_path(scratch, names[k], path);
+    unlink(path);
+  }
+  rmdir(scratch->folder);
+}
+
+static bool write_bytes(const char *path, const void *bytes, size_t size) {
+  FILE *file = fopen(path, "wxe");
+  if (!file) return false;
+  bool good = fwrite(bytes, 1, size, file) == size;
+  return fclose(file) == 0 && good;
+}
+
+/* *made tells whether the folder is there, also after a failure. */
+static enum slab_result scratch_make(struct scratch *scratch, const char *name, const void *bytes,
+                                     size_t size, const char *suffix, bool *made,
+                                     struct slab_error *error) {
+  const char *temporary = getenv("TMPDIR");
+  char path[600], letters[16];
+  size_t n = 0;
+  *made = false;
+  for (; n + 1 < sizeof letters &&
+         ((suffix[n] >= '0' && suffix[n] <= '9') || (suffix[n] >= 'a' && suffix[n] <= 'z') ||
+          (suffix[n] >= 'A' && suffix[n] <= 'Z'));
+       ++n)
+    letters[n] = suffix[n];
+  letters[n] = 0;
+  snprintf(scratch->in, sizeof scratch->in, "in.%s", letters);
+  int length = snprintf(scratch->folder, sizeof scratch->folder, "%s/renderslab-XXXXXX",
+                        temporary && temporary[0] ? temporary : "/tmp");
+  if (length >= (int)sizeof scratch->folder || !mkdtemp(scratch->folder))
+    return slab_fail(error, SLAB_IO, "%s: %s", scratch->folder, strerror(errno));
+  *made = true;
+  scratch_path(scratch, scratch->in, path);
+  if (bytes) {
+    if (!write_bytes(path, bytes, size))
+      return slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
+    return SLAB_OK;
+  }
+  char *absolute = realpath(name, NULL);
+  bool good = absolute && access(absolute, R_OK) == 0 && symlink(absolute, path) == 0;
+  int failure = errno;
+  free(absolute);
+  return good ? SLAB_OK : slab_fail(error, SLAB_IO, "%s: %s", name, strerror(failure));
+}
+
+/* In the child: never returns. */
+static void become_oiiotool(const struct scratch *scratch) {
+  if (chdir(scratch->folder) != 0) _exit(EXEC_FAILED);
+  int none = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  int said = open(SAID, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  int errors = open(ERRORS, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (none < 0 || said < 0 || errors < 0) _exit(EXEC_FAILED);
+  dup2(none, STDIN_FILENO);
+  dup2(said, STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+  /* colours as they are in the file, not multiplied by alpha; the first three channels,
+   * or the first for all three; and what the numbers mean */
+  execlp("oiiotool", "oiiotool", "--native", "--iconfig", "oiio:UnassociatedAlpha", "1",
+         scratch->in, "--echo", "{TOP.format} {TOP['oiio:ColorSpace']}", "--if",
+         "{TOP.nchannels < 3}", "--ch", "0,0,0", "--else", "--ch", "0,1,2", "--endif", "--chnames",
+         "R,G,B", "-d", "float", "--compression", "none", "-o", OUT, (char *)NULL);
+  _exit(EXEC_FAILED);
+}
+
+/* The first line of a file in the folder; "" where there is none. */
+static void first_line(const struct scratch *scratch, const char *name, char line[512]) {
+  char path[600];
+  scratch_path(scratch, name, path);
+  FILE *file = fopen(path, "re");
+  if (!file || !fgets(line, 512, file)) line[0] = 0;
+  if (file) fclose(file);
+  line[strcspn(line, "\n")] = 0;
+}
+
+static enum slab_result run(const struct scratch *scratch, const char *name,
+                            struct slab_error *error) {
+  pid_t pid = fork();
+  if (pid < 0) return slab_fail(error, SLAB_IO, "fork: %s", strerror(errno));
+  if (pid == 0) become_oiiotool(scratch);
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0)
+    if (errno != EINTR) return slab_fail(error, SLAB_IO, "oiiotool: %s", strerror(errno));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == EXEC_FAILED)
+    return slab_fail(error, SLAB_IO,
+                     "%s: oiiotool, which reads textures, cannot be run; install it (Debian: apt "
+                     "install openimageio-tools)",
+                     name);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return SLAB_OK;
+  char message[512];
+  first_line(scratch, ERRORS, message);
+  if (WIFSIGNALED(status))
+    snprintf(message, sizeof message, "oiiotool was killed by signal %d", WTERMSIG(status));
+  return slab_fail(error, SLAB_BAD, "%s: is no image that can be read: %s", name, message);
+}
+
+/* Floating-point files hold light; others are sRGB unless they say that they are linear. */
+static bool is_linear(const char *said) {
+  static const char *const linear[] = {"half ", "float ", "double "};
+  for (size_t k = 0; k < sizeof linear / sizeof *linear; ++k)
+    if (strncmp(said, linear[k], strlen(linear[k])) == 0) return true;
+  const char *space = strchr(said, ' ');
+  return space &&
+         (strcasecmp(space + 1, "linear") == 0 || strcasecmp(space + 1, "scene_linear") == 0);
+}
+
+static enum slab_result decode(const char *name, const char *said, struct slab_picture *picture,
+                               struct slab_error *error) {
+  size_t count = 3 * (size_t)picture->width * (size_t)picture->height;
+  bool linear = is_linear(said);
+  for (size_t k = 0; k < count; ++k) {
+    double x = (double)picture->rgb[k];
+    if (!(x >= 0) || !isfinite(x))
+      return slab_fail(error, SLAB_BAD,
+                       "%s: column %zu, row %zu holds a value that is negative or not finite", name,
+                       k / 3 % (size_t)picture->width, k / 3 / (size_t)picture->width);
+    if (linear) continue;
+    picture->rgb[k] = (float)(x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4));
+  }
+  return SLAB_OK;
+}
+
+enum slab_result scene_texture_read(const char *path, const void *bytes, size_t size,
+                                    const char *suffix, struct slab_picture *picture,
+                                    struct slab_error *error) {
+  struct scratch scratch;
+  struct slab_error inner = {""};
+  char out[600], said[512];
+  bool made;
+  *picture = (struct slab_picture){0};
+  enum slab_result result = scratch_make(&scratch, path, bytes, size, suffix, &made, error);
+  if (!result) result = run(&scratch, path, error);
+  if (!result) {
+    scratch_path(&scratch, OUT, out);
+    result = slab_exr_read(out, picture, &inner);
+    if (result) slab_fail(error, result, "%s: oiiotool's copy: %s", path, inner.text);
+  }
+  if (!result) {
+    first_line(&scratch, SAID, said);
+    result = decode(path, said, picture, error);
+  }
+  if (made) scratch_remove(&scratch);
+  if (result) slab_picture_free(picture);
+  return result;
+}
