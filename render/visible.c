@@ -183,29 +183,56 @@ static long decide(struct visible_work *work, const struct list *blocks, int siz
   return marked;
 }
 
-/* Finds the visible cells; returns their number, or -1 without memory. */
-static long find_cells(const struct visible_query *query, struct visible *visible) {
+static bool unanimous(const struct visible_work *work) {
+  struct place first = item(&work->asked, 0);
+  for (size_t k = 1; k < work->asked.count; ++k) {
+    struct place place = item(&work->asked, k);
+    if (*state_at(work, place.x, place.y) != *state_at(work, first.x, first.y)) return false;
+  }
+  return true;
+}
+
+/* Asks and traces for a level of blocks; false without memory. */
+static bool look(const struct visible_query *query, struct visible *visible,
+                 const struct list *blocks, int size) {
+  if (!ask_blocks(visible->work, blocks, size)) return false;
+  trace(query, visible);
+  return true;
+}
+
+static long find_levels(const struct visible_query *query, struct visible *visible) {
   struct visible_work *work = visible->work;
   size_t n = (size_t)work->cells;
+  struct list *blocks = &work->blocks[0], *quarters = &work->blocks[1];
   int size = 2 * work->cells / query->grid;
   long total = 0;
-  struct list *blocks = &work->blocks[0], *quarters = &work->blocks[1];
+  blocks->count = 0;
+  for (int k = 0; k < query->grid * query->grid; ++k)
+    if (!append(blocks, (struct place){k % query->grid * size, k / query->grid * size})) return -1;
+  if (!look(query, visible, blocks, size)) return -1;
+  if (unanimous(work)) /* most receivers */
+    return *state_at(work, size / 2, size / 2) == CLEAR ? (long)(n * n) : 0;
   memset(work->clear[0], 0, n * n);
   memset(work->clear[1], 0, n * n);
-  work->asked.count = work->traced = blocks->count = 0;
-  for (int k = 0; k < query->grid * query->grid && total >= 0; ++k)
-    if (!append(blocks, (struct place){k % query->grid * size, k / query->grid * size})) total = -1;
-  for (; total >= 0 && blocks->count > 0; size /= 2) {
-    long marked = -1;
-    if (ask_blocks(work, blocks, size)) {
-      trace(query, visible);
-      marked = decide(work, blocks, size, quarters);
-    }
-    total = marked < 0 ? -1 : total + marked;
+  for (;;) {
+    long marked = decide(work, blocks, size, quarters);
+    if (marked < 0) return -1;
+    total += marked;
+    if (quarters->count == 0) return total;
     struct list *swap = blocks;
     blocks = quarters;
     quarters = swap;
+    size /= 2;
+    if (!look(query, visible, blocks, size)) return -1;
   }
+}
+
+/* Finds the visible cells; returns their number, or -1 without memory. The map of them is
+ * made only where some are visible and some are not. */
+static long find_cells(const struct visible_query *query, struct visible *visible) {
+  struct visible_work *work = visible->work;
+  work->asked.count = work->traced = 0;
+  long total = find_levels(query, visible);
   for (size_t k = 0; k < work->asked.count; ++k) {
     struct place place = item(&work->asked, k);
     *state_at(work, place.x, place.y) = UNKNOWN;
@@ -289,6 +316,10 @@ enum slab_result visible_find(const struct visible_query *query, struct visible 
   long found = find_cells(query, visible);
   if (found < 0) return no_memory(error);
   if (found == 0) return SLAB_OK;
+  if (found == (long)cells * cells) {
+    const struct run all = {0, cells, 0};
+    return emit(query, visible, 0, &all, cells) ? SLAB_OK : no_memory(error);
+  }
   int axis = merge(NULL, visible, 0) <= merge(NULL, visible, 1) ? 0 : 1;
   return merge(query, visible, axis) < 0 ? no_memory(error) : SLAB_OK;
 }
