@@ -3,7 +3,11 @@
 #include "commands.h"
 #include "slab_cli.h"
 
-static const struct cli_command commands[] = {{0}};
+static const struct cli_command commands[] = {
+    {"irradiance", cmd_irradiance, "irradiance of receivers read from stdin"},
+    {"image", cmd_image, "picture of an OBJ, glTF or PLY scene"},
+    {"pov", cmd_pov, "the same view as a POV-Ray scene"},
+    {0}};
 
 static const struct cli_program renderslab = {
     .name = "renderslab",

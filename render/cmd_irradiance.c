@@ -1,0 +1,162 @@
+/* cmd_irradiance.c - renderslab irradiance: the light that receivers read from stdin get. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "commands.h"
+#include "occlusion.h"
+#include "options.h"
+#include "receivers.h"
+#include "scene.h"
+#include "slab_cli.h"
+#include "stats.h"
+#include "targets.h"
+#include "tiles.h"
+
+enum { OPTION_MESH = 256 };
+
+/* Receivers that are read, and answered, at a time; and a thread's share of them. */
+enum { BLOCK = 16384, TILE = 64 };
+
+struct arguments {
+  struct options options;
+  const char *mesh;
+};
+
+static error_t parse(int key, char *value, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  switch (key) {
+  case ARGP_KEY_INIT:
+    state->child_inputs[0] = &arguments->options;
+    return 0;
+  case OPTION_MESH:
+    arguments->mesh = value;
+    return 0;
+  case ARGP_KEY_ARG:
+    argp_error(state, "%s: receivers come from stdin, lights by --light", value);
+    return 0;
+  case ARGP_KEY_SUCCESS:
+    if (arguments->options.method == GATHER_CLOSED && arguments->mesh)
+      argp_error(state, "--method closed: cannot be used with --mesh; use reference");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* What the threads share. */
+struct work {
+  struct gather_settings settings;
+  struct gather **gather; /* [threads] */
+  int threads;
+  struct receivers receivers;
+  struct gathered *gathered; /* [BLOCK] */
+};
+
+static enum slab_result work_tile(void *context, int tile, int worker, struct slab_error *error) {
+  struct work *work = context;
+  struct receiver receivers[TILE] = {0};
+  struct gathered gathered[TILE];
+  int first = tile * TILE, count = work->receivers.count - first;
+  if (count > TILE) count = TILE;
+  const int *order = work->receivers.order + first;
+  for (int k = 0; k < count; ++k) receivers[k] = work->receivers.receiver[order[k]];
+  enum slab_result result = gather_light(work->gather[worker], receivers, count, gathered, error);
+  for (int k = 0; k < count && result == SLAB_OK; ++k) work->gathered[order[k]] = gathered[k];
+  return result;
+}
+
+static enum slab_result answer(struct work *work, struct slab_error *error) {
+  enum slab_result result;
+  do {
+    result = receivers_read(stdin, BLOCK, &work->receivers, error);
+    int count = work->receivers.count, tiles = (count + TILE - 1) / TILE;
+    if (result == SLAB_OK) result = tiles_run(work->threads, tiles, work_tile, NULL, work, error);
+    for (int k = 0; k < count && result == SLAB_OK; ++k) {
+      const double *rgb = work->gathered[k].irradiance;
+      printf("%.9g %.9g %.9g\n", rgb[0], rgb[1], rgb[2]);
+    }
+  } while (result == SLAB_OK && work->receivers.count == BLOCK);
+  return result;
+}
+
+static enum slab_result prepare(struct work *work, struct slab_error *error) {
+  work->gather = calloc((size_t)work->threads, sizeof *work->gather);
+  work->gathered = calloc(BLOCK, sizeof *work->gathered);
+  if (!work->gather || !work->gathered) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  enum slab_result result = SLAB_OK;
+  for (int k = 0; k < work->threads && result == SLAB_OK; ++k)
+    result = gather_create(&work->settings, &work->gather[k], error);
+  return result;
+}
+
+static void finish(struct work *work, struct stats *stats) {
+  for (int k = 0; work->gather && k < work->threads; ++k) {
+    if (work->gather[k]) stats_add_counts(&stats->counts, gather_counts(work->gather[k]));
+    gather_free(work->gather[k]);
+  }
+  free(work->gather);
+  free(work->gathered);
+  receivers_free(&work->receivers);
+}
+
+static enum slab_result run(const struct arguments *arguments, struct stats *stats,
+                            struct slab_error *error) {
+  const struct options *options = &arguments->options;
+  struct light *lights = NULL;
+  struct scene scene = {0};
+  struct occlusion *occlusion = NULL;
+  struct work work = {.threads = options->threads};
+  char note[256] = "";
+  stats_phase(stats, "load");
+  enum slab_result result = targets_check(&options->stats, 1, &arguments->mesh, 1, error);
+  if (result == SLAB_OK) result = options_load_lights(options, &lights, error);
+  if (result == SLAB_OK && arguments->mesh) {
+    result = scene_load(arguments->mesh, SCENE_SHAPE, options->repair, &scene, note, error);
+    if (result == SLAB_OK) result = occlusion_create(&scene, &occlusion, error);
+  }
+  if (result == SLAB_OK) {
+    if (*note) cli_note("note: %s", note);
+    stats_effect(stats, "shadows", occlusion != NULL, occlusion ? "%zu triangles" : "no --mesh",
+                 scene.triangles);
+    work.settings = options_settings(options, lights, occlusion);
+    stats_phase(stats, "gather");
+    result = prepare(&work, error);
+  }
+  if (result == SLAB_OK) result = answer(&work, error);
+  finish(&work, stats);
+  occlusion_free(occlusion);
+  scene_free(&scene);
+  options_free_lights(lights, options->light_count);
+  return result;
+}
+
+int cmd_irradiance(int argc, char **argv) {
+  static const struct argp_option option[] = {
+      {"mesh", OPTION_MESH, "FILE", 0, "A mesh (OBJ, glTF, PLY) that casts shadows", 0}, {0}};
+  const struct argp_child children[] = {{&options_argp, 0, NULL, 0}, cli_options[0], {0}};
+  const struct argp argp = {
+      .options = option,
+      .parser = parse,
+      .children = children,
+      .doc = "Reads receivers `px py pz nx ny nz` (position and normal, scene space) from standard "
+             "input, one a line, and prints the irradiance `er eg eb` of each from all lights. "
+             "Empty lines and lines that start with # are skipped. A receiver in the uv plane has "
+             "the limit of those in front of it; one behind it gets no light."
+             "\vExamples:\n"
+             "  echo 0 0 0  0 1 0 | renderslab irradiance --light 'lamp.tif at=0,2,0'\n"
+             "  renderslab irradiance --light lamp.tif --method reference < receivers.txt"};
+  struct arguments arguments = {0};
+  struct stats stats = {0};
+  struct slab_error error = {{0}};
+  argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+  const struct options *options = &arguments.options;
+  stats.command = cli_command_line();
+  stats.method = gather_method_name(options->method);
+  stats.tolerance = options->tolerance;
+  stats.threads = options->threads;
+  enum slab_result result = run(&arguments, &stats, &error);
+  if (result == SLAB_OK && options->stats) result = stats_write(&stats, options->stats, &error);
+  options_free(&arguments.options);
+  int status = result == SLAB_OK ? CLI_OK : cli_fail(&error);
+  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+}
