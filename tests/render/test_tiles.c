@@ -1,0 +1,89 @@
+/* test_tiles.c - every piece once, whatever the number of threads, and the same failure. */
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <string.h>
+#include <time.h>
+
+#include "helpers.h"
+#include "tiles.h"
+
+enum { TILES = 500, THREADS = 7 };
+
+struct job {
+  atomic_int runs[TILES];
+  int of_worker[THREADS]; /* scratch memory: no other thread's */
+  int threads;
+  bool bad_worker;
+  int failing[2]; /* tiles; the first one takes longer */
+  double done;
+  bool back;
+};
+
+static enum slab_result work(void *context, int tile, int worker, struct slab_error *error) {
+  struct job *job = context;
+  if (worker < 0 || worker >= job->threads) {
+    job->bad_worker = true;
+    return SLAB_OK;
+  }
+  ++job->of_worker[worker];
+  atomic_fetch_add(&job->runs[tile], 1);
+  for (int k = 0; k < 2; ++k)
+    if (tile == job->failing[k]) {
+      if (k == 0) nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+      return slab_fail(error, k ? SLAB_MEMORY : SLAB_BAD, "tile %d", tile);
+    }
+  return SLAB_OK;
+}
+
+static void progress(void *context, double done) {
+  struct job *job = context;
+  if (done <= job->done || done > 1) job->back = true;
+  job->done = done;
+}
+
+static void test_all_once(void **state) {
+  (void)state;
+  for (int threads = 1; threads <= THREADS; ++threads) {
+    struct job job = {.threads = threads, .failing = {-1, -1}};
+    struct slab_error error = {""};
+    assert_int_equal(tiles_run(threads, TILES, work, progress, &job, &error), SLAB_OK);
+    int total = 0;
+    for (int k = 0; k < TILES; ++k) assert_int_equal(job.runs[k], 1);
+    for (int k = 0; k < THREADS; ++k) total += job.of_worker[k];
+    assert_int_equal(total, TILES);
+    assert_false(job.bad_worker);
+    assert_false(job.back);
+    if (threads == 1) assert_near(job.done, 1, 0);
+  }
+}
+
+static void test_lowest_failure(void **state) {
+  (void)state;
+  for (int k = 0; k < 20; ++k) {
+    struct job job = {.threads = THREADS, .failing = {100, 101}};
+    struct slab_error error = {""};
+    assert_int_equal(tiles_run(THREADS, TILES, work, NULL, &job, &error), SLAB_BAD);
+    assert_string_equal(error.text, "tile 100");
+    assert_int_equal(job.runs[TILES - 1], 0);
+  }
+}
+
+static void test_few(void **state) {
+  (void)state;
+  struct job job = {.threads = 2, .failing = {-1, -1}};
+  struct slab_error error = {""};
+  assert_int_equal(tiles_run(5, 0, work, NULL, &job, &error), SLAB_OK);
+  assert_int_equal(tiles_run(5, 2, work, NULL, &job, &error), SLAB_OK);
+  assert_false(job.bad_worker); /* no more workers than tiles */
+  assert_int_equal(tiles_run(0, 2, work, NULL, &job, &error), SLAB_BAD);
+  assert_true(tiles_processors() >= 1);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_all_once),
+      cmocka_unit_test(test_lowest_failure),
+      cmocka_unit_test(test_few),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
