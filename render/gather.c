@@ -116,17 +116,17 @@ static enum slab_result take_sums(struct gather *gather, double gain, struct gat
 
 /* The rule `pi` takes the kernel from the middle of a micro light. Over a strip of half width
  * h the kernel's curvature changes the mean by at most 5/3 h^2, and its slope, together with
- * the radiance's, by about h/2 times the change of radiance over the strip; of the latter
- * the sum over N micro lights keeps the share 1/sqrt(N). */
+ * the radiance's, by about h/2 times the change of radiance over the strip; of the latter a
+ * sum over n strips keeps the share 1/sqrt(n) (rough samples in rows: the worst that was
+ * met). */
 static double pi_error(const struct strips strips[2]) {
-  double widest = 0, count = 1;
-  for (int axis = 0; axis < 2; ++axis) {
-    count *= strips[axis].count;
+  double widest = 0;
+  int fewest = strips[0].count < strips[1].count ? strips[0].count : strips[1].count;
+  for (int axis = 0; axis < 2; ++axis)
     for (int k = 0; k < strips[axis].count; ++k)
       widest = fmax(widest, strips[axis].strip[k].high - strips[axis].strip[k].low);
-  }
   double half = widest / 2;
-  return 5.0 / 3 * half * half + half / 2 / sqrt(count);
+  return 5.0 / 3 * half * half + half / 2 / sqrt(fewest);
 }
 
 static enum gather_method choose(struct gather *gather, const struct strips strips[2]) {
