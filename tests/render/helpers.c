@@ -1,0 +1,204 @@
+/* helpers.c - see helpers.h. */
+#include "helpers.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char directory[256];
+
+static void remove_scratch(void) {
+  DIR *listing = opendir(directory);
+  const struct dirent *entry;
+  while (listing && (entry = readdir(listing)) != NULL) {
+    char path[600];
+    snprintf(path, sizeof path, "%s/%s", directory, entry->d_name);
+    if (entry->d_name[0] != '.') unlink(path);
+  }
+  if (listing) closedir(listing);
+  rmdir(directory);
+}
+
+const char *scratch(const char *name) {
+  static char paths[8][600];
+  static int next;
+  if (!*directory) {
+    const char *parent = getenv("TMPDIR");
+    snprintf(directory, sizeof directory, "%s/render-test-XXXXXX", parent ? parent : "/tmp");
+    if (!mkdtemp(directory)) abort();
+    atexit(remove_scratch);
+  }
+  char *path = paths[next++ % 8];
+  snprintf(path, sizeof paths[0], "%s/%s", directory, name);
+  return path;
+}
+
+/* The upper bits of PCG: neighbouring numbers must not be related, or
+ * receivers would miss parts of the slab. */
+double random_number(uint32_t *seed) {
+  *seed = *seed * 747796405u + 2891336453u;
+  uint32_t word = ((*seed >> ((*seed >> 28) + 4)) ^ *seed) * 277803737u;
+  return ((word >> 22 ^ word) >> 8) / 16777216.0;
+}
+
+void random_direction(uint32_t *seed, double direction[3]) {
+  double z = 2 * random_number(seed) - 1, turn = 2 * acos(-1) * random_number(seed);
+  direction[0] = sqrt(1 - z * z) * cos(turn);
+  direction[1] = sqrt(1 - z * z) * sin(turn);
+  direction[2] = z;
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void scale(double a[3], double length) {
+  double by = length / sqrt(dot(a, a));
+  for (int k = 0; k < 3; ++k) a[k] *= by;
+}
+
+/* a - (a . b) b, with b a unit vector. */
+static void reject(double a[3], const double b[3]) {
+  double along = dot(a, b);
+  for (int k = 0; k < 3; ++k) a[k] -= along * b[k];
+}
+
+static void turn_frame(struct slab *slab, bool mirrored, uint32_t *seed) {
+  double *u = slab->u, *v = slab->v, *n = slab->normal;
+  random_direction(seed, n);
+  random_direction(seed, u);
+  for (int twice = 0; twice < 2; ++twice) {
+    reject(u, n);
+    scale(u, 1);
+  }
+  double sign = mirrored ? -1 : 1;
+  for (int k = 0; k < 3; ++k) {
+    int a = (k + 1) % 3, b = (k + 2) % 3;
+    v[k] = sign * (n[a] * u[b] - n[b] * u[a]);
+  }
+  scale(u, 0.3 + random_number(seed));
+  scale(v, 0.3 + random_number(seed));
+  for (int k = 0; k < 3; ++k) slab->center[k] = 8 * random_number(seed) - 4;
+}
+
+void fill_slab(struct slab *slab, enum fill fill, uint32_t seed) {
+  size_t count = 3 * slab_sample_count(slab);
+  for (size_t k = 0; k < count; ++k) {
+    double x = random_number(&seed);
+    slab->rgb[k] = fill == FILL_CONSTANT  ? 1
+                   : fill == FILL_UNIFORM ? (float)x
+                   : fill == FILL_EXTREME ? (x < 0.5 ? 0 : 2)
+                                          : (float)(2 * x - 1);
+  }
+}
+
+struct slab rough_slab(const int samples[SLAB_AXES], double distance, const double window[4],
+                       enum frame frame, enum fill fill, uint32_t seed) {
+  struct slab slab = slab_default();
+  struct slab_error error = {{0}};
+  memcpy(slab.samples, samples, sizeof slab.samples);
+  snprintf(slab.name, sizeof slab.name, "rough");
+  for (int k = 0; k < 3; ++k) {
+    slab.center[k] = 0;
+    slab.u[k] = k == 0, slab.v[k] = k == 1, slab.normal[k] = k == 2;
+  }
+  if (frame != FRAME_PLAIN) turn_frame(&slab, frame == FRAME_MIRRORED, &seed);
+  memcpy(slab.st_window, window, sizeof slab.st_window);
+  slab.st_distance = distance;
+  if (slab_check(&slab, &error) != SLAB_OK || slab_alloc(&slab, &error) != SLAB_OK)
+    fail_msg("%s", error.text);
+  fill_slab(&slab, fill, seed);
+  return slab;
+}
+
+void slab_point(const struct slab *slab, double a, double b, double z, double p[3]) {
+  double u = sqrt(dot(slab->u, slab->u)), v = sqrt(dot(slab->v, slab->v));
+  for (int k = 0; k < 3; ++k)
+    p[k] = slab->center[k] + a / u * slab->u[k] + b / v * slab->v[k] + z * slab->normal[k];
+}
+
+struct receiver aimed_receiver(const struct slab *slab, double z, enum receiver_kind kind,
+                               uint32_t *seed) {
+  struct receiver receiver = {{0}, {0}};
+  const double *w = slab->st_window;
+  double kappa = isinf(slab->st_distance) ? 0 : 1 / slab->st_distance, from[3], to_light[3];
+  double a = (random_number(seed) - 0.5) * sqrt(dot(slab->u, slab->u));
+  double b = (random_number(seed) - 0.5) * sqrt(dot(slab->v, slab->v));
+  double s = w[0] + (w[1] - w[0]) * (1.2 * random_number(seed) - 0.1);
+  double t = w[2] + (w[3] - w[2]) * (1.2 * random_number(seed) - 0.1);
+  slab_point(slab, a, b, 0, from);
+  slab_point(slab, a + z * (s - kappa * a), b + z * (t - kappa * b), z, receiver.p);
+  for (int k = 0; k < 3; ++k) to_light[k] = from[k] - receiver.p[k];
+  scale(to_light, 1);
+  random_direction(seed, receiver.n);
+  for (int k = 0; k < 3 && kind == RECEIVER_FACING; ++k) receiver.n[k] = -slab->normal[k];
+  if (kind == RECEIVER_CUT) {
+    reject(receiver.n, to_light);
+    scale(receiver.n, 1);
+  } else if (dot(receiver.n, to_light) < 0) {
+    for (int k = 0; k < 3; ++k) receiver.n[k] = -receiver.n[k];
+  }
+  return receiver;
+}
+
+const char *write_light(const char *name, const struct slab *slabs, int count) {
+  struct slab_error error = {{0}};
+  const char *path = scratch(name);
+  if (slab_file_write(path, slabs, count, SLAB_PRECISION_FLOAT, &error) != SLAB_OK)
+    fail_msg("%s", error.text);
+  return path;
+}
+
+void need_program(void) {
+  if (!getenv("RENDERSLAB")) skip();
+}
+
+static void write_receivers(const char *path, const struct receiver *receivers, int count) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  for (int k = 0; k < count; ++k) {
+    const double *p = receivers[k].p, *n = receivers[k].n;
+    fprintf(file, "%.17g %.17g %.17g %.17g %.17g %.17g\n", p[0], p[1], p[2], n[0], n[1], n[2]);
+  }
+  assert_int_equal(fclose(file), 0);
+}
+
+void irradiance(const struct receiver *receivers, int count, double rgb[][3], const char *arguments,
+                ...) {
+  char words[3000], command[sizeof words + 1300], line[256];
+  static char input[600], output[600]; /* not among the caller's 8 */
+  va_list list;
+  if (!*input) {
+    snprintf(input, sizeof input, "%s", scratch("receivers"));
+    snprintf(output, sizeof output, "%s", scratch("irradiance"));
+  }
+  va_start(list, arguments);
+  vsnprintf(words, sizeof words, arguments, list);
+  va_end(list);
+  assert_true(count <= COUNT_MAX);
+  write_receivers(input, receivers, count);
+  snprintf(command, sizeof command, "\"$RENDERSLAB\" irradiance %s <%s >%s", words, input, output);
+  int status = system(command);
+  if (status != 0) fail_msg("status %d: %s", status, command);
+  FILE *file = fopen(output, "r");
+  assert_non_null(file);
+  for (int k = 0; k < count; ++k) {
+    int end = 0;
+    if (!fgets(line, sizeof line, file)) fail_msg("%d lines for %d receivers: %s", k, count, words);
+    if (sscanf(line, "%lf %lf %lf %n", &rgb[k][0], &rgb[k][1], &rgb[k][2], &end) != 3 || line[end])
+      fail_msg("not three numbers: %s", line);
+    for (int c = 0; c < 3; ++c)
+      if (!isfinite(rgb[k][c])) fail_msg("not finite: %s", line);
+  }
+  if (fgets(line, sizeof line, file)) fail_msg("a line too many: %s", line);
+  fclose(file);
+}
+
+void assert_near_at(double a, double b, double tolerance, const char *file, int line) {
+  if (fabs(a - b) <= tolerance) return;
+  print_error("%.17g and %.17g differ by %g, more than %g\n", a, b, fabs(a - b), tolerance);
+  _fail(file, line);
+}
