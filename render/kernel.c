@@ -17,8 +17,8 @@ void kernel_heights(const struct kernel *kernel, const double low[2], const doub
   range[1] = n[0] * (n[0] > 0 ? high[0] : low[0]) + n[1] * (n[1] > 0 ? high[1] : low[1]) - n[2];
 }
 
-SIMD_CLONES
-void kernel_matte(const struct kernel *kernel, const double *x, double y, int count, double *out) {
+SIMD_INLINE void kernel_matte_body(const struct kernel *kernel, const double *x, double y,
+                                   int count, double *out) {
   const double along = kernel->normal[0], rest = kernel->normal[1] * y - kernel->normal[2];
   const double square = 1 + y * y;
   for (int k = 0; k < count; k += 4) {
@@ -27,6 +27,10 @@ void kernel_matte(const struct kernel *kernel, const double *x, double y, int co
     memcpy(out + k, &value, sizeof value);
   }
 }
+
+SIMD_DISPATCH(kernel_matte,
+              (const struct kernel *kernel, const double *x, double y, int count, double *out),
+              (kernel, x, y, count, out))
 
 void kernel_gloss(const struct kernel *kernel, const double *x, double y, int count, double *out) {
   const double *n = kernel->normal, *eye = kernel->eye;

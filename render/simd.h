@@ -1,5 +1,5 @@
 /* simd.h - vectors of the compiler (gcc's and clang's extension), and functions that exist
- * once for each instruction set and are chosen when the program starts.
+ * once for each instruction set and are chosen when they are called.
  *
  * No operation is fused (-ffp-contract=off), so all of them give the same bits. */
 #ifndef SIMD_H
@@ -15,14 +15,27 @@ typedef float simd_floats4 __attribute__((vector_size(16), aligned(4), may_alias
 typedef double simd_doubles4 __attribute__((vector_size(32), aligned(8), may_alias));
 #define SIMD_LOAD(type, from) (*(const type *)(from))
 
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) &&             \
-    !defined(__SANITIZE_THREAD__)
-#define SIMD_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define SIMD_CLONES
-#endif
-
 #define SIMD_INLINE static inline __attribute__((always_inline))
+
+/* Defines `void NAME parameters`, which does what NAME_body does. (gcc's and clang's
+ * target_clones would say it shorter, but clang 14's are not found by other files.) */
+#ifdef __x86_64__
+#define SIMD_DISPATCH(name, parameters, arguments)                                                 \
+  __attribute__((target("avx2"))) static void name##_avx2 parameters {                             \
+    name##_body arguments;                                                                         \
+  }                                                                                                \
+  static void name##_plain parameters {                                                            \
+    name##_body arguments;                                                                         \
+  }                                                                                                \
+  void name parameters {                                                                           \
+    (__builtin_cpu_supports("avx2") ? name##_avx2 : name##_plain) arguments;                       \
+  }
+#else
+#define SIMD_DISPATCH(name, parameters, arguments)                                                 \
+  void name parameters {                                                                           \
+    name##_body arguments;                                                                         \
+  }
+#endif
 
 /* Lanes in an array; counts are rounded up to it. */
 enum { SIMD_LANES = 8 };

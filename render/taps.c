@@ -13,10 +13,9 @@ void taps_set_column(struct taps_column *column, const int offset[2], const doub
   }
 }
 
-SIMD_CLONES
-void taps_sum_row(const float *const rows[4], const double row_weight[4],
-                  const struct taps_column *columns, const float *factor, int count,
-                  double rgb[3]) {
+SIMD_INLINE void taps_sum_row_body(const float *const rows[4], const double row_weight[4],
+                                   const struct taps_column *columns, const float *factor,
+                                   int count, double rgb[3]) {
   const float *const row0 = rows[0], *const row1 = rows[1];
   const float *const row2 = rows[2], *const row3 = rows[3];
   const float w0 = (float)row_weight[0], w1 = (float)row_weight[1];
@@ -37,6 +36,11 @@ void taps_sum_row(const float *const rows[4], const double row_weight[4],
   }
   for (int c = 0; c < 3; ++c) rgb[c] += (double)(sum[c] + sum[c + 3]);
 }
+
+SIMD_DISPATCH(taps_sum_row,
+              (const float *const rows[4], const double row_weight[4],
+               const struct taps_column *columns, const float *factor, int count, double rgb[3]),
+              (rows, row_weight, columns, factor, count, rgb))
 
 /* Four floats as doubles; written so that gcc sees one instruction. */
 #define AS_DOUBLES(from) ((simd_double4){(from)[0], (from)[1], (from)[2], (from)[3]})
@@ -65,8 +69,8 @@ void taps_sum_cell(const float *const rows[4], const int offset[2], const double
   for (int c = 0; c < 3; ++c) rgb[c] += sum[c];
 }
 
-SIMD_CLONES
-void taps_sum_cells(const struct taps_cells *cells, int first, int last, double rgb[3]) {
+SIMD_INLINE void taps_sum_cells_body(const struct taps_cells *cells, int first, int last,
+                                     double rgb[3]) {
   simd_double4 sum = {0};
   for (int c = first; c < last; ++c) {
     const int from = cells->first[c], nodes = cells->first[c + 1] - from;
@@ -88,3 +92,6 @@ void taps_sum_cells(const struct taps_cells *cells, int first, int last, double 
   }
   for (int c = 0; c < 3; ++c) rgb[c] += sum[c];
 }
+
+SIMD_DISPATCH(taps_sum_cells, (const struct taps_cells *cells, int first, int last, double rgb[3]),
+              (cells, first, last, rgb))
