@@ -35,8 +35,9 @@ enum { OPTION_SAMPLES = 256, OPTION_PREVIEW, OPTION_EXPOSURE, OPTION_NO_SHADOWS 
 
 static void check_output(const char *path, struct argp_state *state) {
   size_t length = path ? strlen(path) : 0;
-  if (!path) argp_error(state, "no output given; add -o OUT.exr");
-  if (strcmp(path, "-") && (length < 5 || strcmp(path + length - 4, ".exr")))
+  if (!path)
+    argp_error(state, "no output given; add -o OUT.exr");
+  else if (strcmp(path, "-") && (length < 5 || strcmp(path + length - 4, ".exr")))
     argp_error(state, "-o %s: must end in .exr; --preview writes a PNG", path);
 }
 

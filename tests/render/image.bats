@@ -1,0 +1,224 @@
+#!/usr/bin/env bats
+# renderslab image: what the picture shows, and what is refused.
+bats_require_minimum_version 1.5.0
+
+setup_file() {
+  cd "$BATS_FILE_TMPDIR" || return
+  load render
+  letter_lamp
+}
+
+setup() {
+  load render
+  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return
+  cp "$BATS_FILE_TMPDIR"/letter_f.* "$BATS_TEST_DIRNAME"/scenes/* .
+}
+
+# picture OUT OPTION...: the floor lit from above, 40 x 30.
+picture() {
+  local out=$1
+  shift
+  "$RENDERSLAB" image occluder.obj --light 'letter_f.tif at=0,1,0' --size 40x30 \
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' -q -o "$out" "$@"
+}
+
+@test "the letter falls on the floor the right way round" {
+  # One view whose rays meet the floor, 1 below, at (s, t): s to the right, t away from an eye
+  # above, so that the raster's first row is the picture's last. The lamp's back is transparent.
+  letter_slab one.tif one 1 1 '"center": [0, 0, 0], "u": [0.01, 0, 0], "v": [0, 0, 0.01], "normal": [0, -1, 0], "st_window": [-1, 1, -1, 1]'
+  "$RENDERSLAB" image floor.obj --light 'one.tif at=0,1,0' -o above.exr --size 64x64 -q \
+    --camera 'from=0,4,0 at=0,0,0 up=0,0,1 fov=28.0724869358530'
+  oiiotool letter.exr --flip --resize:filter=triangle 64x64 -o right.exr
+  right=$(correlation above.exr right.exr)
+  echo "# right way round: $right"
+  below 0.9 "$right"
+  for turn in --flip --flop --rotate180 --transpose; do
+    oiiotool right.exr $turn -o wrong.exr
+    wrong=$(correlation above.exr wrong.exr)
+    below "$wrong" 0.7 || { echo "$turn: $wrong"; return 1; }
+  done
+}
+
+@test "meshes are mirrored in z; emission and background are radiances" {
+  touch texture.png # loaded, but out of the picture
+  oiiotool --create 2x2 3 -o texture.png
+  "$RENDERSLAB" image patches.obj --light 'letter_f.tif at=0,-1,0' -o above.exr --size 40x40 -q \
+    --camera 'from=0,2,0 at=0,0,0 up=0,0,1 fov=60' --background 0.5,0.25,0.125
+  # OBJ's x 0.4..0.9, z -0.4..-0.9 is up and to the right; the lamp is under the floor.
+  [ "$(mean_of above.exr --cut 4x4+30+7)" = 0.02,0.03,0.05 ]
+  [ "$(mean_of above.exr --cut 4x4+30+30)" = 0,0,0 ]
+  [ "$(mean_of above.exr --cut 4x4+7+7)" = 0,0,0 ]
+  "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 -q \
+    --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125
+  [ "$(mean_of sky.exr)" = 0.5,0.25,0.125 ]
+}
+
+@test "who looks into a lamp sees its slab" {
+  "$RENDERSLAB" image floor.obj --light 'letter_f.tif at=0,1,0 gain=2' -o lamp.exr --size 1x1 -q \
+    --camera 'from=0.02,0.5,0.03 at=0.02,1,0.03 up=0,0,1'
+  seen=$(mean_of lamp.exr)
+  slab=$(echo 0.02 -1 0.03 0 -1 0 | "$BAKESLAB" lookup letter_f.tif)
+  echo "$seen $slab" | tr , ' ' | awk '{ exit !($4 > 0 && ($1 - 2*$4)^2 + ($2 - 2*$5)^2 + ($3 - 2*$6)^2 < 1e-10*$4^2) }'
+  # Nothing of it is seen from behind, or behind something.
+  "$RENDERSLAB" image floor.obj --light 'letter_f.tif at=0,1,0' -o back.exr --size 1x1 -q \
+    --camera 'from=0,2,0 at=0,3,0 up=0,0,1'
+  [ "$(mean_of back.exr)" = 0,0,0 ]
+  "$RENDERSLAB" image floor.obj --light 'letter_f.tif at=0,1,0' -o under.exr --size 1x1 -q \
+    --camera 'from=0,-1,0 at=0,3,0 up=0,0,1'
+  [ "$(mean_of under.exr)" = 0,0,0 ]
+}
+
+@test "any number of threads gives the same bits, and again" {
+  picture a.exr --threads 1
+  picture b.exr --threads 2
+  picture c.exr --threads 7
+  idiff -fail 0 -warn 0 a.exr b.exr
+  idiff -fail 0 -warn 0 a.exr c.exr
+  picture d.exr --threads 1 --method paper --seed 3
+  picture e.exr --threads 3 --method paper --seed 3
+  idiff -fail 0 -warn 0 d.exr e.exr
+  picture f.exr --method paper --seed 4
+  run ! idiff -fail 0 -warn 0 d.exr f.exr
+}
+
+@test "samples are the means of a finer picture" {
+  picture fine.exr --size 80x60
+  picture coarse.exr --samples 2
+  oiiotool fine.exr --resize:filter=box 40x30 -d float -o means.exr
+  error=$(relative coarse.exr means.exr)
+  below "$error" 1e-4
+}
+
+@test "no shadows: the floor is as bright as if nothing stood on it" {
+  picture free.exr --no-shadows
+  "$RENDERSLAB" image floor.obj --light 'letter_f.tif at=0,1,0' --size 40x30 \
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' -q -o bare.exr
+  oiiotool free.exr --cut 40x4+0+26 -o free_front.exr
+  oiiotool bare.exr --cut 40x4+0+26 -o bare_front.exr
+  # The hits are the same but for single precision.
+  error=$(relative free_front.exr bare_front.exr)
+  below "$error" 1e-3
+  picture shadows.exr
+  run ! idiff -fail 0 -warn 0 shadows.exr free.exr
+}
+
+@test "the preview: exposure, sRGB, and what made it" {
+  "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 --exposure 0.5 \
+    --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125 --preview sky.png
+  [ "$(mean_of sky.png --mulc 255)" = 255,188,137 ]
+  grep -aq 'Comment.*renderslab image floor.obj' sky.png
+  grep -aq 'Exposure.*0.5 is white' sky.png
+  oiiotool --info -v sky.exr | grep -q 'renderslab image floor.obj'
+  # The default leaves 99 % of the pixels below 0.9, and is told.
+  run --separate-stderr "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 \
+    --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125 --preview sky.png
+  [ "$status" -eq 0 ]
+  [ "$stderr" = "renderslab: sky.png: note: radiance 0.5556 is white; --exposure 0.5556 keeps it" ]
+  [ "$(mean_of sky.png --mulc 255)" = 243,179,130 ]
+}
+
+@test "statistics" {
+  picture a.exr --stats a.json
+  for key in '"command": "renderslab image occluder.obj ' '"total": ' '"receivers": ' '"microlights": ' \
+    '"nodes": ' '"shadow_rays": ' '"shadows": {' '"simulated": true' '"error_estimate": ' '"gloss": {' '"simulated": false'; do
+    grep -qF "$key" a.json || { echo "no $key"; return 1; }
+  done
+  run ! grep -q '"shadow_rays": 0,' a.json
+  picture a.exr --no-shadows --stats a.json
+  grep -q '"shadow_rays": 0,' a.json
+  grep -qF -- --no-shadows a.json
+}
+
+@test "a bar is drawn on a terminal only, and -q silences it" {
+  # script gives the program a terminal.
+  command -v script >/dev/null || skip "no script(1)"
+  line="$RENDERSLAB image occluder.obj --light 'letter_f.tif at=0,1,0' --size 40x30 --samples 2 --camera 'from=0.3,2,-2.2 at=0,0,0.1' -o a.exr"
+  script -qec "$line" /dev/null </dev/null >with.txt
+  grep -q 'image \[' with.txt
+  script -qec "$line -q" /dev/null </dev/null >without.txt
+  [ ! -s without.txt ]
+  run --separate-stderr picture a.exr
+  [ -z "$output$stderr" ]
+}
+
+# refuses PIECE OPTION...: a run with other options than a good one is refused, and leaves no file.
+refuses() {
+  local piece=$1
+  shift
+  run --separate-stderr "$RENDERSLAB" image "$@"
+  refused "$piece" || return 1
+  [ "$(ls)" = "$before" ] || { echo "left behind: $(ls)"; return 1; }
+}
+
+@test "bad meshes" {
+  good=(--light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr)
+  sed 's/^v 3 0 3/v nan 0 3/' floor.obj >nan.obj
+  sed 's/^v .*/v 1 0 1/' floor.obj >flat.obj
+  grep -v '^vn' floor.obj | sed 's,//1,,g' >normals.obj
+  sed '/^mtllib/d; /^usemtl/d' floor.obj >materials.obj
+  echo "no mesh" >text.obj
+  : >empty.obj
+  before=$(ls)
+  refuses nothere.obj nothere.obj "${good[@]}"
+  refuses nan.obj nan.obj "${good[@]}"
+  refuses flat.obj flat.obj "${good[@]}"
+  refuses normals.obj normals.obj "${good[@]}"
+  refuses materials.obj materials.obj "${good[@]}"
+  refuses text.obj text.obj "${good[@]}"
+  refuses empty.obj empty.obj "${good[@]}"
+  refuses scenes . "${good[@]}" || refuses . . "${good[@]}"
+  refuses mesh "${good[@]}"
+  refuses two.obj floor.obj two.obj "${good[@]}"
+  # Mended, those without normals or materials show something.
+  "$RENDERSLAB" image normals.obj "${good[@]}" -q --repair --size 40x30
+  "$RENDERSLAB" image materials.obj "${good[@]}" -q --repair --size 40x30
+}
+
+@test "bad lights and methods" {
+  good=(floor.obj --camera 'from=0,2,-3 at=0,0,0' -o a.exr)
+  before=$(ls)
+  refuses light "${good[@]}"
+  refuses nothere.tif "${good[@]}" --light nothere.tif
+  refuses floor.obj "${good[@]}" --light floor.obj
+  refuses matrix "${good[@]}" --light 'letter_f.tif matrix=1,0,0,1,0,0,0,0,1,0,0,0'
+  refuses toward "${good[@]}" --light 'letter_f.tif at=1,1,1 toward=1,1,1'
+  refuses scale "${good[@]}" --light 'letter_f.tif scale=0'
+  refuses "auto, reference, paper, midpoint, pi, closed, views" "${good[@]}" --light letter_f.tif --method best
+  refuses tolerance "${good[@]}" --light letter_f.tif --tolerance 0
+  refuses tolerance "${good[@]}" --light letter_f.tif --tolerance nan
+  refuses threads "${good[@]}" --light letter_f.tif --threads 0
+  refuses shadow-edge "${good[@]}" --light letter_f.tif --shadow-grid 32 --shadow-edge 16
+}
+
+@test "bad sizes, cameras and outputs" {
+  good=(floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0')
+  mkdir folder
+  before=$(ls)
+  for size in 0 0x10 10x0 2147483648 2147483648x1 1x2147483648 65537 -1 10x 1e3 '' nan; do
+    refuses size "${good[@]}" -o a.exr "--size=$size"
+  done
+  for camera in '' nonsense 'from=0,0,0' 'from=0,0,0 at=0,0,0' 'from=0,0,0 at=0,1,0' \
+    'from=nan,0,0 at=0,1,2' 'from=0,0 at=0,1,2' 'from=0,0,0 at=0,1,2 fov=180' 'from=0,0,0 at=0,1,2 fov=0'; do
+    refuses "" floor.obj --light letter_f.tif -o a.exr "--camera=$camera"
+  done
+  refuses camera floor.obj --light letter_f.tif -o a.exr
+  refuses samples "${good[@]}" -o a.exr --samples 0
+  refuses exposure "${good[@]}" -o a.exr --exposure -1
+  refuses background "${good[@]}" -o a.exr --background 1,2
+  refuses output "${good[@]}"
+  refuses .exr "${good[@]}" -o a.png
+  refuses nowhere "${good[@]}" -o nowhere/a.exr
+  refuses nowhere "${good[@]}" -o a.exr --preview nowhere/a.png
+  refuses nowhere "${good[@]}" -o a.exr --stats nowhere/a.json
+  refuses folder "${good[@]}" -o a.exr --stats folder
+  refuses a.exr "${good[@]}" -o a.exr --stats a.exr
+  refuses floor.obj "${good[@]}" -o a.exr --preview floor.obj
+  refuses letter_f.tif "${good[@]}" -o a.exr --preview letter_f.tif
+}
+
+@test "a picture too large for the memory" {
+  [ "$CONFIG" != sanitize ] || skip "shadow memory needs more than the limit"
+  before=$(ls)
+  ulimit -v 8000000
+  refuses memory floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr --size 65536
+}
