@@ -27,6 +27,7 @@ struct arguments {
 /* What is loaded. */
 struct world {
   struct light *lights;
+  struct gather_aids aids;
   struct scene scene;
   struct occlusion *occlusion;
 };
@@ -92,6 +93,9 @@ static enum slab_result load(const struct arguments *arguments, struct world *wo
   }
   free(inputs);
   if (result == SLAB_OK)
+    result = gather_aids_make(world->lights, count, options->method, options->threads, &world->aids,
+                              error);
+  if (result == SLAB_OK)
     result = scene_load(arguments->view.mesh, SCENE_SURFACES, options->repair, &world->scene, note,
                         error);
   if (result == SLAB_OK && *note) cli_note("%s: note: %s", arguments->view.mesh, note);
@@ -102,6 +106,7 @@ static enum slab_result load(const struct arguments *arguments, struct world *wo
 static void unload(const struct arguments *arguments, struct world *world) {
   occlusion_free(world->occlusion);
   scene_free(&world->scene);
+  gather_aids_free(&world->aids);
   options_free_lights(world->lights, arguments->options.light_count);
 }
 
@@ -136,18 +141,19 @@ static enum slab_result render(const struct arguments *arguments, const struct w
   const struct view_options *view = &arguments->view;
   const struct occlusion *shadows = arguments->no_shadows ? NULL : world->occlusion;
   struct progress progress;
-  struct image_settings settings = {.shade = {.scene = &world->scene,
-                                              .occlusion = world->occlusion,
-                                              .lights = world->lights,
-                                              .light_count = options->light_count},
-                                    .camera = view->camera,
-                                    .gather = options_settings(options, world->lights, shadows),
-                                    .width = view->size[0],
-                                    .height = view->size[1],
-                                    .samples = arguments->samples,
-                                    .threads = options->threads,
-                                    .progress = show_progress,
-                                    .progress_context = &progress};
+  struct image_settings settings = {
+      .shade = {.scene = &world->scene,
+                .occlusion = world->occlusion,
+                .lights = world->lights,
+                .light_count = options->light_count},
+      .camera = view->camera,
+      .gather = options_settings(options, world->lights, &world->aids, shadows),
+      .width = view->size[0],
+      .height = view->size[1],
+      .samples = arguments->samples,
+      .threads = options->threads,
+      .progress = show_progress,
+      .progress_context = &progress};
   memcpy(settings.shade.background, view->background, sizeof view->background);
   progress_start(&progress, cli_quiet(), 0);
   enum slab_result result = image_render(&settings, picture, &stats->counts, error);

@@ -105,6 +105,7 @@ static enum slab_result run(const struct arguments *arguments, struct stats *sta
   struct light *lights = NULL;
   struct scene scene = {0};
   struct occlusion *occlusion = NULL;
+  struct gather_aids aids = {0};
   struct work work = {.threads = options->threads};
   char note[256] = "";
   stats_phase(stats, "load");
@@ -118,12 +119,16 @@ static enum slab_result run(const struct arguments *arguments, struct stats *sta
     if (*note) cli_note("note: %s", note);
     stats_effect(stats, "shadows", occlusion != NULL, occlusion ? "%zu triangles" : "no --mesh",
                  scene.triangles);
-    work.settings = options_settings(options, lights, occlusion);
+    work.settings = options_settings(options, lights, &aids, occlusion);
+    stats_phase(stats, "prepare");
+    result = gather_aids_make(lights, options->light_count, options->method, options->threads,
+                              &aids, error);
+    if (result == SLAB_OK) result = prepare(&work, error);
     stats_phase(stats, "gather");
-    result = prepare(&work, error);
   }
   if (result == SLAB_OK) result = answer(&work, error);
   finish(&work, stats);
+  gather_aids_free(&aids);
   occlusion_free(occlusion);
   scene_free(&scene);
   options_free_lights(lights, options->light_count);

@@ -8,6 +8,7 @@
 
 #include "cells.h"
 #include "closed.h"
+#include "levels.h"
 #include "occlusion.h"
 #include "paper.h"
 #include "visible.h"
@@ -34,10 +35,15 @@ struct gather {
 };
 
 static const char *const method_names[GATHER_METHODS] = {
-    [GATHER_AUTO] = "auto",   [GATHER_REFERENCE] = "reference",
-    [GATHER_PAPER] = "paper", [GATHER_MIDPOINT] = "midpoint",
-    [GATHER_PI] = "pi",       [GATHER_CLOSED] = "closed",
+    [GATHER_AUTO] = "auto",
+    [GATHER_REFERENCE] = "reference",
+    [GATHER_PAPER] = "paper",
+    [GATHER_MIDPOINT] = "midpoint",
+    [GATHER_PI] = "pi",
+    [GATHER_CLOSED] = "closed",
     [GATHER_VIEWS] = "views",
+    [GATHER_LEVELS] = "levels",
+    [GATHER_PAPER_LEVELS] = "paper-levels",
 };
 
 const char *gather_method_name(enum gather_method method) {
@@ -89,6 +95,15 @@ static void add(struct gathered *gathered, const double irradiance[3], const dou
   }
 }
 
+/* One receiver, one page. */
+struct look {
+  const struct light *light;
+  const struct light_page *page;
+  int page_number; /* of gather_aids */
+  const struct receiver *receiver;
+  int index; /* of the receiver, in its tile */
+};
+
 /* Takes the sums that are waiting, strip of views by strip of views. */
 static enum slab_result take_sums(struct gather *gather, double gain, struct gathered *gathered,
                                   struct slab_error *error) {
@@ -96,7 +111,8 @@ static enum slab_result take_sums(struct gather *gather, double gain, struct gat
   for (int k = 0; k < gather->waiting; ++k) {
     enum slab_result result = cells_scratch_reserve(&gather->scratch, &gather->sums[k], error);
     if (result != SLAB_OK) return result;
-    views = gather->sums[k].view.page->axes[1].near_count;
+    int count = gather->sums[k].view.page->axes[1].near_count;
+    views = count > views ? count : views;
   }
   for (int view = 0; view < views; ++view)
     for (int k = 0; k < gather->waiting; ++k) {
@@ -132,9 +148,10 @@ static double pi_error(const struct strips strips[2]) {
 static enum gather_method choose(struct gather *gather, const struct strips strips[2]) {
   enum gather_method method = gather->settings->method;
   double error = gather->settings->tolerance;
-  if (method == GATHER_AUTO || method == GATHER_PI || method == GATHER_MIDPOINT) {
+  bool cheapest = method == GATHER_AUTO || method == GATHER_LEVELS;
+  if (cheapest || method == GATHER_PI || method == GATHER_MIDPOINT) {
     double single = pi_error(strips);
-    if (method == GATHER_AUTO) method = single <= error ? GATHER_PI : GATHER_REFERENCE;
+    if (cheapest) method = single <= error ? GATHER_PI : GATHER_REFERENCE;
     if (method != GATHER_REFERENCE) error = single;
   }
   gather->counts.error = fmax(gather->counts.error, error);
@@ -142,21 +159,22 @@ static enum gather_method choose(struct gather *gather, const struct strips stri
 }
 
 /* Sums the micro lights between `strips`: at once, or puts it with those that wait. */
-static enum slab_result sum(struct gather *gather, const struct view *view,
+static enum slab_result sum(struct gather *gather, const struct look *look, const struct view *view,
                             const struct strips strips[2], enum gather_method method,
-                            const struct receiver *receiver, int index, double gain,
                             struct gathered *gathered, struct slab_error *error) {
-  double irradiance[3] = {0}, gloss[3] = {0};
+  double irradiance[3] = {0}, gloss[3] = {0}, gain = look->light->gain;
   enum slab_result result = SLAB_OK;
   switch (method) {
   case GATHER_PAPER:
-    paper_sum(view, strips, gather->settings->seed ^ receiver->index * 0xd1342543de82ef95u,
-              irradiance, gloss, &gather->cell_counts);
-    add(&gathered[index], irradiance, gloss, gain);
+  case GATHER_PAPER_LEVELS:
+    paper_sum(view, look->page, strips,
+              gather->settings->seed ^ look->receiver->index * 0xd1342543de82ef95u, irradiance,
+              gloss, &gather->cell_counts);
+    add(&gathered[look->index], irradiance, gloss, gain);
     return SLAB_OK;
   case GATHER_CLOSED:
     result = closed_sum(view, strips, gather->nodes, irradiance, &gather->cell_counts, error);
-    add(&gathered[index], irradiance, gloss, gain);
+    add(&gathered[look->index], irradiance, gloss, gain);
     return result;
   default:
     break;
@@ -169,7 +187,7 @@ static enum slab_result sum(struct gather *gather, const struct view *view,
   enum rule rule = method == GATHER_REFERENCE ? RULE_GAUSS
                    : method == GATHER_PI      ? RULE_PI
                                               : RULE_MIDPOINT;
-  gather->receiver[gather->waiting] = index;
+  gather->receiver[gather->waiting] = look->index;
   return cells_prepare(&gather->sums[gather->waiting++], view, strips, kind, rule, &gather->orders,
                        error);
 }
@@ -210,36 +228,55 @@ static enum slab_result clip(struct gather *gather, const struct visible_rectang
   return SLAB_OK;
 }
 
-/* One receiver, one page. */
-static enum slab_result look(struct gather *gather, const struct light *light,
-                             const struct light_page *page, const struct receiver *receiver,
-                             int index, struct gathered *gathered, struct slab_error *error) {
-  struct view view;
+/* The receiver's view of the page, or of the level that its distance calls for; false where
+ * the page is turned away. */
+static bool find_view(const struct gather *gather, const struct look *look, struct view *view) {
+  const struct gather_settings *settings = gather->settings;
+  if (!view_find(look->page, look->receiver, view)) return false;
+  if (!settings->aids || !settings->aids->levels) return true;
+  const struct levels *levels = &settings->aids->levels[look->page_number];
+  int level = settings->level < 0 ? levels_choose(levels, view) : settings->level;
+  if (level > levels->count) level = levels->count;
+  if (level > 0) view->page = &levels->page[level - 1];
+  return true;
+}
+
+/* Does it see any of the page above its tangent plane? Finds the strips. */
+static enum slab_result find_strips(struct gather *gather, const struct view *view, bool *sees,
+                                    struct slab_error *error) {
   struct strips *whole = gather->whole;
-  bool views = gather->settings->method == GATHER_VIEWS;
-  double low[2], high[2], range[2] = {0, 0};
-  bool faces = view_find(page, receiver, &view);
-  enum slab_result result = faces ? view_strips(&view, views, whole, error) : SLAB_OK;
-  if (result != SLAB_OK) return result;
-  if (faces && (whole[0].count == 0 || whole[1].count == 0)) return SLAB_OK;
-  for (int axis = 0; faces && axis < 2; ++axis) {
+  double low[2], high[2], range[2];
+  *sees = false;
+  enum slab_result result =
+      view_strips(view, gather->settings->method == GATHER_VIEWS, whole, error);
+  if (result != SLAB_OK || whole[0].count == 0 || whole[1].count == 0) return result;
+  for (int axis = 0; axis < 2; ++axis) {
     low[axis] = whole[axis].strip[0].low;
     high[axis] = whole[axis].strip[whole[axis].count - 1].high;
   }
-  if (faces) kernel_heights(&view.kernel, low, high, range);
-  if (!(range[1] > 0)) {
+  kernel_heights(&view->kernel, low, high, range);
+  *sees = range[1] > 0;
+  return SLAB_OK;
+}
+
+static enum slab_result take_look(struct gather *gather, const struct look *look,
+                                  struct gathered *gathered, struct slab_error *error) {
+  struct view view;
+  bool sees = find_view(gather, look, &view);
+  enum slab_result result = sees ? find_strips(gather, &view, &sees, error) : SLAB_OK;
+  if (result != SLAB_OK) return result;
+  if (!sees) {
     ++gather->counts.pages_behind;
     return SLAB_OK;
   }
-  enum gather_method method = choose(gather, whole);
+  enum gather_method method = choose(gather, gather->whole);
   if (!gather->settings->occlusion)
-    return sum(gather, &view, whole, method, receiver, index, light->gain, gathered, error);
-  result = find_visible(gather, &view, receiver, error);
+    return sum(gather, look, &view, gather->whole, method, gathered, error);
+  result = find_visible(gather, &view, look->receiver, error);
   for (int k = 0; k < gather->visible.count && result == SLAB_OK; ++k) {
-    result = clip(gather, &gather->visible.rectangles[k], views, error);
+    result = clip(gather, &gather->visible.rectangles[k], method == GATHER_VIEWS, error);
     if (result == SLAB_OK && gather->part[0].count > 0 && gather->part[1].count > 0)
-      result =
-          sum(gather, &view, gather->part, method, receiver, index, light->gain, gathered, error);
+      result = sum(gather, look, &view, gather->part, method, gathered, error);
   }
   return result;
 }
@@ -250,11 +287,13 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
   enum slab_result result = SLAB_OK;
   memset(gathered, 0, (size_t)count * sizeof *gathered);
   gather->waiting = 0;
-  for (int l = 0; l < settings->light_count; ++l) {
+  for (int l = 0, number = 0; l < settings->light_count; ++l) {
     const struct light *light = &settings->lights[l];
-    for (int page = 0; page < light->count && result == SLAB_OK; ++page) {
-      for (int k = 0; k < count && result == SLAB_OK; ++k)
-        result = look(gather, light, &light->pages[page], &receivers[k], k, gathered, error);
+    for (int page = 0; page < light->count && result == SLAB_OK; ++page, ++number) {
+      for (int k = 0; k < count && result == SLAB_OK; ++k) {
+        const struct look look = {light, &light->pages[page], number, &receivers[k], k};
+        result = take_look(gather, &look, gathered, error);
+      }
       if (result == SLAB_OK) result = take_sums(gather, light->gain, gathered, error);
     }
   }

@@ -11,14 +11,16 @@
 struct occlusion;
 
 enum gather_method {
-  GATHER_AUTO,      /* the cheapest that meets the tolerance */
-  GATHER_REFERENCE, /* Gauss rules whose order follows from the tolerance */
-  GATHER_PAPER,     /* one random sample a micro light, as published */
-  GATHER_MIDPOINT,  /* one in the middle */
-  GATHER_PI,        /* hat functions integrated exactly, the kernel in the middle */
-  GATHER_CLOSED,    /* closed form; matte receivers without occluders only */
-  GATHER_VIEWS,     /* one sample a view, at the uv sample: what projective textures sum
-                       (section 4.3), and POV-Ray's lights of the sheet include */
+  GATHER_AUTO,         /* the cheapest that meets the tolerance */
+  GATHER_REFERENCE,    /* Gauss rules whose order follows from the tolerance */
+  GATHER_PAPER,        /* one random sample a micro light, as published */
+  GATHER_MIDPOINT,     /* one in the middle */
+  GATHER_PI,           /* hat functions integrated exactly, the kernel in the middle */
+  GATHER_CLOSED,       /* closed form; matte receivers without occluders only */
+  GATHER_VIEWS,        /* one sample a view, at the uv sample: what projective textures sum
+                          (section 4.3), and POV-Ray's lights of the sheet include */
+  GATHER_LEVELS,       /* the paper's hierarchy (section 4.2), kept in memory; pi on each level */
+  GATHER_PAPER_LEVELS, /* the same as published: averaged on the fly, one random sample */
   GATHER_METHODS
 };
 
@@ -45,16 +47,30 @@ struct gather_counts {
   uint64_t microlights; /* visited */
   uint64_t nodes;       /* at which the kernel was evaluated */
   uint64_t shadow_rays;
-  uint64_t pages_behind; /* pages that were skipped: the receiver is behind them or they are
-                            below its tangent plane */
+  uint64_t pages_behind; /* pages that were skipped: the receiver is behind them, beside all
+                            that they emit, or they are below its tangent plane */
   double error;          /* largest predicted relative error of a receiver's matte light */
 };
+
+/* What some methods make of the slabs before the first receiver: indexed by page, counted
+ * through all lights. */
+struct gather_aids {
+  int pages;
+  struct levels *levels; /* [pages], methods levels; NULL for others; owned */
+};
+
+/* Makes what the method needs. */
+enum slab_result gather_aids_make(const struct light *lights, int count, enum gather_method method,
+                                  int threads, struct gather_aids *aids, struct slab_error *error);
+void gather_aids_free(struct gather_aids *aids); /* zeroed aids allowed */
 
 struct gather_settings {
   const struct light *lights;
   int light_count;
+  const struct gather_aids *aids; /* for the same method */
   enum gather_method method;
   double tolerance;                  /* relative */
+  int level;                         /* of methods levels; -1: by solid angle */
   uint64_t seed;                     /* of method paper */
   const struct occlusion *occlusion; /* NULL: nothing casts shadows */
   int shadow_grid, shadow_edge;      /* visible.h */

@@ -98,16 +98,26 @@ static enum slab_result place(const char *text, const struct light_text *where, 
   return result;
 }
 
-static void set_axis(const struct slab *slab, int axis, double scale, struct light_axis *out) {
-  int near = axis ? SLAB_V : SLAB_U, far = axis ? SLAB_T : SLAB_S;
-  out->near_count = slab->samples[near];
-  out->far_count = slab->samples[far];
-  out->half = scale * vector_length(axis ? slab->v : slab->u) / 2;
-  out->near_step = 2 * out->half / out->near_count;
-  out->far_low = slab->st_window[2 * axis];
-  out->far_high = slab->st_window[2 * axis + 1];
-  out->far_step = (out->far_high - out->far_low) / out->far_count;
-  out->kappa = slab_kappa(slab) / scale;
+void light_page_set_samples(struct light_page *page) {
+  for (int k = 0; k < 2; ++k) {
+    struct light_axis *axis = &page->axes[k];
+    axis->near_count = page->slab.samples[k ? SLAB_V : SLAB_U];
+    axis->far_count = page->slab.samples[k ? SLAB_T : SLAB_S];
+    axis->near_step = 2 * axis->half / axis->near_count;
+    axis->far_step = (axis->far_high - axis->far_low) / axis->far_count;
+  }
+}
+
+static void set_axes(struct light_page *page, double scale) {
+  const struct slab *slab = &page->slab;
+  for (int k = 0; k < 2; ++k) {
+    struct light_axis *axis = &page->axes[k];
+    axis->half = scale * vector_length(k ? slab->v : slab->u) / 2;
+    axis->far_low = slab->st_window[2 * k];
+    axis->far_high = slab->st_window[2 * k + 1];
+    axis->kappa = slab_kappa(slab) / scale;
+  }
+  light_page_set_samples(page);
 }
 
 static enum slab_result set_page(const char *text, const struct light *light,
@@ -121,10 +131,10 @@ static enum slab_result set_page(const char *text, const struct light *light,
     finite = vector_normalise(page->frame[c]) && finite;
     finite = isfinite(page->center[c]) && finite;
   }
-  for (int axis = 0; axis < 2; ++axis) {
-    struct light_axis *out = &page->axes[axis];
-    set_axis(&page->slab, axis, light->scale, out);
-    finite = finite && out->near_step > 0 && isfinite(out->half) && isfinite(out->kappa);
+  set_axes(page, light->scale);
+  for (int k = 0; k < 2; ++k) {
+    const struct light_axis *axis = &page->axes[k];
+    finite = finite && axis->near_step > 0 && isfinite(axis->half) && isfinite(axis->kappa);
   }
   if (finite) return SLAB_OK;
   return slab_fail(error, SLAB_BAD, "--light %s: placed beyond what numbers can hold", text);

@@ -45,6 +45,9 @@ struct light {
 enum slab_result light_load(const char *text, struct light *light, struct slab_error *error);
 void light_free(struct light *light); /* zeroed light allowed */
 
+/* Sets what the page's axes know of its slab's samples, after these have changed. */
+void light_page_set_samples(struct light_page *page);
+
 /* Who looks into a lamp sees its slab: the nearest aperture that faces `origin` along the
  * unit `direction`, nearer than `limit`. Gives the radiance seen and returns the distance;
  * INFINITY where there is none. Apertures are transparent from behind. */

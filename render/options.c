@@ -14,6 +14,7 @@ enum {
   OPTION_LIGHT = 1000,
   OPTION_METHOD,
   OPTION_TOLERANCE,
+  OPTION_LEVEL,
   OPTION_THREADS,
   OPTION_SEED,
   OPTION_STATS,
@@ -22,7 +23,7 @@ enum {
   OPTION_SHADOW_EDGE
 };
 
-enum { MOST_THREADS = 1024, MOST_SHADOW_GRID = 256, MOST_SHADOW_EDGE = 65536 };
+enum { MOST_THREADS = 1024, MOST_LEVEL = 30, MOST_SHADOW_GRID = 256, MOST_SHADOW_EDGE = 65536 };
 
 /* A number, and where it ends; strtod would skip blanks. */
 static bool number_at(const char *text, const char **end, double *number) {
@@ -105,6 +106,7 @@ static error_t parse_lights(int key, char *value, struct argp_state *state) {
 
 static void set_defaults(struct options *options) {
   options->method = GATHER_AUTO;
+  options->level = -1;
   options->shadow_grid = 16;
   options->shadow_edge = 256;
 }
@@ -120,6 +122,7 @@ static void finish(struct options *options, struct argp_state *state) {
 
 static error_t parse_sum(int key, char *value, struct argp_state *state) {
   struct options *options = state->input;
+  uint64_t level = 0;
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = options;
@@ -131,6 +134,11 @@ static error_t parse_sum(int key, char *value, struct argp_state *state) {
   case OPTION_TOLERANCE:
     if (!options_number(value, &options->tolerance) || !(options->tolerance > 0))
       argp_error(state, "--tolerance %s: must be a number above 0", value);
+    return 0;
+  case OPTION_LEVEL:
+    if (!options_count(value, 0, MOST_LEVEL, &level))
+      argp_error(state, "--level %s: must be a whole number from 0 to %d", value, MOST_LEVEL);
+    options->level = (int)level;
     return 0;
   case OPTION_THREADS:
     options->threads = parse_count("--threads", value, MOST_THREADS, state);
@@ -170,12 +178,15 @@ static const struct argp_option sum_options[] = {
      "How light is summed: auto (the default), reference, paper, midpoint, pi, closed or views", 0},
     {"tolerance", OPTION_TOLERANCE, "T", 0,
      "Relative error that is allowed (default 0.01; 1e-6 for reference)", 0},
+    {"level", OPTION_LEVEL, "K", 0,
+     "Level of the hierarchy, for the methods levels and paper-levels (default: by solid angle)",
+     0},
     {"shadow-grid", OPTION_SHADOW_GRID, "N", 0,
      "Shadow rays look at each aperture in N x N blocks (default 16)", 0},
     {"shadow-edge", OPTION_SHADOW_EDGE, "N", 0,
      "and at edges of shadows in parts of 1/N of its sides (default 256)", 0},
     {"threads", OPTION_THREADS, "N", 0, "Threads (default: one a processor); same result", 0},
-    {"seed", OPTION_SEED, "N", 0, "Of the method paper (default 0)", 0},
+    {"seed", OPTION_SEED, "N", 0, "Of the methods paper and paper-levels (default 0)", 0},
     {"stats", OPTION_STATS, "FILE", 0, "Write what was done, and its time, as JSON", 0},
     {0}};
 
@@ -211,9 +222,12 @@ void options_free_lights(struct light *lights, int count) {
 }
 
 struct gather_settings options_settings(const struct options *options, const struct light *lights,
+                                        const struct gather_aids *aids,
                                         const struct occlusion *occlusion) {
   return (struct gather_settings){.lights = lights,
                                   .light_count = options->light_count,
+                                  .aids = aids,
+                                  .level = options->level,
                                   .method = options->method,
                                   .tolerance = options->tolerance,
                                   .seed = options->seed,

@@ -14,6 +14,7 @@ struct options {
   int light_count;
   enum gather_method method; /* auto */
   double tolerance;          /* 0.01; 1e-6 for the method reference */
+  int level;                 /* of methods levels; -1: by solid angle */
   int threads;               /* as many as there are processors */
   uint64_t seed;             /* 0 */
   const char *stats;         /* NULL: none */
@@ -37,8 +38,9 @@ enum slab_result options_load_lights(const struct options *options, struct light
                                      struct slab_error *error);
 void options_free_lights(struct light *lights, int count); /* NULL allowed */
 
-/* How to sum; `occlusion` may be NULL. */
+/* How to sum; `occlusion` may be NULL. `aids` are gather_aids_make's for the same lights. */
 struct gather_settings options_settings(const struct options *options, const struct light *lights,
+                                        const struct gather_aids *aids,
                                         const struct occlusion *occlusion);
 
 /* The whole text is one finite number; one whole number from `low` to `high`; `count` finite

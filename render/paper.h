@@ -6,8 +6,12 @@
 
 #include "cells.h"
 
-/* Adds the light of all micro lights. `seed` makes the samples: same seed, same samples. */
-void paper_sum(const struct view *view, const struct strips strips[2], uint64_t seed,
-               double irradiance[3], double gloss[3], struct cells_counts *counts);
+/* Adds the light of all micro lights. `fine` is the page whose samples are read: the view's, or
+ * the one of which the view's page is a level (levels.h): then each value is the mean of the
+ * samples that it stands for, averaged on the fly as published (section 4.2). `seed` makes the
+ * samples: same seed, same samples. */
+void paper_sum(const struct view *view, const struct light_page *fine,
+               const struct strips strips[2], uint64_t seed, double irradiance[3], double gloss[3],
+               struct cells_counts *counts);
 
 #endif

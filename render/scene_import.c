@@ -176,15 +176,24 @@ static enum slab_result add_triangle(struct import *import, const struct instanc
   return SLAB_OK;
 }
 
+/* Ends of lines need none, nor does a corner that is no vertex: add_triangle refuses it. */
+static bool has_normals(const struct instance *instance, const struct aiFace *face) {
+  double normal[3];
+  for (unsigned k = 0; k < face->mNumIndices && face->mNumIndices == 3; ++k)
+    if (face->mIndices[k] < instance->mesh->mNumVertices &&
+        !mesh_normal(instance, face->mIndices[k], normal))
+      return false;
+  return true;
+}
+
 /* Decides whether the mesh gets flat normals. */
 static enum slab_result check_normals(struct import *import, struct instance *instance,
                                       struct slab_error *error) {
   const struct aiMesh *mesh = instance->mesh;
   const char *what = "has no normals";
   instance->flat = !mesh->mNormals;
-  for (unsigned v = 0; v < mesh->mNumVertices && !instance->flat; ++v) {
-    double normal[3];
-    if (mesh_normal(instance, v, normal)) continue;
+  for (unsigned f = 0; f < mesh->mNumFaces && !instance->flat; ++f) {
+    if (has_normals(instance, &mesh->mFaces[f])) continue;
     instance->flat = true;
     what = "has a normal without direction";
   }
@@ -198,8 +207,8 @@ static enum slab_result check_normals(struct import *import, struct instance *in
 static const struct aiVector3D *find_uv(const struct import *import, const struct aiMesh *mesh) {
   int channel = 0;
   if (import->loading->needs != SCENE_SURFACES) return NULL;
-  aiGetMaterialInteger(import->from->mMaterials[mesh->mMaterialIndex], AI_MATKEY_UVWSRC_DIFFUSE(0),
-                       &channel);
+  aiGetMaterialIntegerArray(import->from->mMaterials[mesh->mMaterialIndex],
+                            AI_MATKEY_UVWSRC_DIFFUSE(0), &channel, NULL);
   if (channel < 0 || channel >= AI_MAX_NUMBER_OF_TEXTURECOORDS) return NULL;
   return mesh->mTextureCoords[channel];
 }

@@ -168,8 +168,8 @@ static enum slab_result from_gltf(struct scene_loading *loading, const struct ai
   if (number + 1 == from->mNumMaterials) return no_material(loading, from, number, material, error);
   aiGetMaterialColor(source, AI_MATKEY_BASE_COLOR, &base);
   aiGetMaterialColor(source, AI_MATKEY_COLOR_EMISSIVE, &glow);
-  aiGetMaterialFloat(source, AI_MATKEY_METALLIC_FACTOR, &metallic);
-  aiGetMaterialFloat(source, AI_MATKEY_ROUGHNESS_FACTOR, &roughness);
+  aiGetMaterialFloatArray(source, AI_MATKEY_METALLIC_FACTOR, &metallic, NULL);
+  aiGetMaterialFloatArray(source, AI_MATKEY_ROUGHNESS_FACTOR, &roughness, NULL);
   const double colour[3] = {(double)base.r, (double)base.g, (double)base.b};
   const double light[3] = {(double)glow.r, (double)glow.g, (double)glow.b};
   double factors[2] = {(double)metallic, (double)roughness};

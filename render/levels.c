@@ -1,0 +1,61 @@
+/* levels.c - see levels.h. */
+#include "levels.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "slab_resample.h"
+
+static bool halved(const struct slab *slab, int axis) {
+  return axis == SLAB_U || axis == SLAB_V || isfinite(slab->st_distance);
+}
+
+/* The level above `below`; false in *more where there is none. */
+static enum slab_result halve(const struct light_page *below, struct light_page *page, bool *more,
+                              struct slab_error *error) {
+  int samples[SLAB_AXES];
+  const struct slab *slab = &below->slab;
+  *more = slab->samples[SLAB_U] > 1 || slab->samples[SLAB_V] > 1;
+  if (!*more) return SLAB_OK;
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    samples[axis] = halved(slab, axis) ? (slab->samples[axis] + 1) / 2 : slab->samples[axis];
+  *page = *below;
+  page->slab = (struct slab){0};
+  enum slab_result result = slab_resample(slab, samples, &page->slab, error);
+  if (result == SLAB_OK) light_page_set_samples(page);
+  return result;
+}
+
+enum slab_result levels_build(const struct light_page *page, struct levels *levels,
+                              struct slab_error *error) {
+  enum { MOST = 32 };
+  enum slab_result result = SLAB_OK;
+  bool more = true;
+  *levels = (struct levels){.page = calloc(MOST, sizeof *levels->page)};
+  if (!levels->page) return slab_fail(error, SLAB_MEMORY, "out of memory for levels");
+  for (const struct light_page *below = page; result == SLAB_OK && levels->count < MOST;) {
+    result = halve(below, &levels->page[levels->count], &more, error);
+    if (result != SLAB_OK || !more) break;
+    below = &levels->page[levels->count++];
+  }
+  if (result != SLAB_OK) levels_free(levels);
+  return result;
+}
+
+void levels_free(struct levels *levels) {
+  if (!levels) return;
+  for (int k = 0; k < levels->count; ++k) slab_free(&levels->page[k].slab);
+  free(levels->page);
+  *levels = (struct levels){0};
+}
+
+int levels_choose(const struct levels *levels, const struct view *view) {
+  int level = levels->count;
+  for (int axis = 0; axis < 2; ++axis) {
+    const struct light_axis *along = &view->page->axes[axis];
+    double cells = along->far_step * view->height / along->near_step;
+    int most = cells >= 1 ? (int)fmin(log2(cells), 1e6) : 0;
+    if (most < level) level = most;
+  }
+  return level;
+}
