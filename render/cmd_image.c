@@ -77,6 +77,19 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   }
 }
 
+/* What a method cannot do is not left out silently. */
+static enum slab_result check_method(const struct arguments *arguments, const struct scene *scene,
+                                     struct slab_error *error) {
+  if (arguments->options.method != GATHER_CLOSED) return SLAB_OK;
+  for (int k = 0; k < scene->material_count; ++k)
+    if (shade_glossy(&scene->materials[k]))
+      return slab_fail(error, SLAB_BAD,
+                       "%s: material %s has a highlight, which --method closed cannot do; take "
+                       "another, such as reference",
+                       arguments->view.mesh, scene->materials[k].name);
+  return SLAB_OK;
+}
+
 static enum slab_result load(const struct arguments *arguments, struct world *world,
                              struct slab_error *error) {
   const struct options *options = &arguments->options;
@@ -99,6 +112,7 @@ static enum slab_result load(const struct arguments *arguments, struct world *wo
     result = scene_load(arguments->view.mesh, SCENE_SURFACES, options->repair, &world->scene, note,
                         error);
   if (result == SLAB_OK && *note) cli_note("%s: note: %s", arguments->view.mesh, note);
+  if (result == SLAB_OK) result = check_method(arguments, &world->scene, error);
   if (result == SLAB_OK) result = occlusion_create(&world->scene, &world->occlusion, error);
   return result;
 }
@@ -114,10 +128,8 @@ static void tell_effects(const struct arguments *arguments, const struct scene *
                          struct stats *stats) {
   int glossy = 0, textured = 0;
   for (int k = 0; k < scene->material_count; ++k) {
-    const struct scene_material *material = &scene->materials[k];
-    const double *specular = material->specular;
-    glossy += material->shininess > 0 && (specular[0] != 0 || specular[1] != 0 || specular[2] != 0);
-    textured += material->texture >= 0;
+    glossy += shade_glossy(&scene->materials[k]);
+    textured += scene->materials[k].texture >= 0;
   }
   if (arguments->no_shadows)
     stats_effect(stats, "shadows", false, "--no-shadows");

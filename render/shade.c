@@ -12,6 +12,10 @@ static bool any(const double rgb[3]) {
   return rgb[0] != 0 || rgb[1] != 0 || rgb[2] != 0;
 }
 
+bool shade_glossy(const struct scene_material *material) {
+  return material->shininess > 0 && any(material->specular);
+}
+
 static void turn_towards(const double eye[3], double normal[3]) {
   if (vector_dot(eye, normal) >= 0) return;
   for (int c = 0; c < 3; ++c) normal[c] = -normal[c];
@@ -24,7 +28,7 @@ static void shade_surface(const struct shade *shade, const struct occlusion_hit 
   struct receiver *receiver = &hit->receiver;
   memcpy(hit->shows, material->emission, sizeof hit->shows);
   scene_diffuse(scene, met->triangle, met->share, hit->diffuse);
-  bool gloss = material->shininess > 0 && any(material->specular);
+  bool gloss = shade_glossy(material);
   if (gloss) memcpy(hit->specular, material->specular, sizeof hit->specular);
   hit->lit = gloss || any(hit->diffuse);
   if (!hit->lit) return;
@@ -52,12 +56,15 @@ void shade_ray(const struct shade *shade, const double origin[3], const double d
     memcpy(hit->shows, shade->background, sizeof hit->shows);
 }
 
-void shade_radiance(const struct shade_hit *hit, const struct gathered *gathered, double rgb[3]) {
+void shade_radiance(const struct shade_hit *hit, const struct gathered *gathered, double rgb[3],
+                    double error[3]) {
   for (int c = 0; c < 3; ++c) {
     rgb[c] = hit->shows[c];
-    if (hit->lit)
-      rgb[c] +=
-          (hit->diffuse[c] * gathered->irradiance[c] + hit->specular[c] * gathered->gloss[c]) /
-          M_PI;
+    error[c] = 0;
+    if (!hit->lit) continue;
+    double lit =
+        (hit->diffuse[c] * gathered->irradiance[c] + hit->specular[c] * gathered->gloss[c]) / M_PI;
+    rgb[c] += lit;
+    error[c] = fabs(lit) * gathered->error;
   }
 }

@@ -15,6 +15,7 @@
 
 struct occlusion;
 struct scene;
+struct scene_material;
 
 struct shade {
   const struct scene *scene;
@@ -23,6 +24,9 @@ struct shade {
   int light_count;
   double background[3];
 };
+
+/* Does it have a highlight? */
+bool shade_glossy(const struct scene_material *material);
 
 /* What a ray meets. */
 struct shade_hit {
@@ -36,7 +40,9 @@ struct shade_hit {
 void shade_ray(const struct shade *shade, const double origin[3], const double direction[3],
                uint64_t index, struct shade_hit *hit);
 
-/* The radiance, with what the receiver gathered (NULL if it is not lit). */
-void shade_radiance(const struct shade_hit *hit, const struct gathered *gathered, double rgb[3]);
+/* The radiance, with what the receiver gathered (NULL if it is not lit), and how far off it
+ * is predicted to be. */
+void shade_radiance(const struct shade_hit *hit, const struct gathered *gathered, double rgb[3],
+                    double error[3]);
 
 #endif

@@ -184,6 +184,7 @@ refuses() {
   refuses toward "${good[@]}" --light 'letter_f.tif at=1,1,1 toward=1,1,1'
   refuses scale "${good[@]}" --light 'letter_f.tif scale=0'
   refuses "auto, reference, paper, midpoint, pi, closed, views" "${good[@]}" --light letter_f.tif --method best
+  refuses highlight gloss.obj "${good[@]:1}" --light letter_f.tif --method closed
   refuses tolerance "${good[@]}" --light letter_f.tif --tolerance 0
   refuses tolerance "${good[@]}" --light letter_f.tif --tolerance nan
   refuses threads "${good[@]}" --light letter_f.tif --threads 0
