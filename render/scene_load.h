@@ -36,6 +36,10 @@ struct aiScene;
  * we don't support; in glTF, extensions that we don't support. */
 enum slab_result scene_text_read(struct scene_loading *loading, struct slab_error *error);
 
+/* Refuses a PLY file that ends too early: assimp would look for the end of the header for
+ * ever, and read binary data beyond the end of the file. */
+enum slab_result scene_ply_check(const char *path, struct slab_error *error);
+
 /* The MTL material of that name, or NULL. */
 const struct scene_mtl *scene_text_material(const struct scene_loading *loading, const char *name);
 

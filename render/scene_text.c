@@ -204,27 +204,9 @@ out:
   return result;
 }
 
-/* assimp looks for the end of a header for ever where there is none. */
-static enum slab_result read_ply(struct scene_loading *loading, struct slab_error *error) {
-  char *text = NULL;
-  size_t room = 0;
-  bool ended = false;
-  FILE *file = fopen(loading->path, "re");
-  if (!file) return slab_fail(error, SLAB_IO, "%s: %s", loading->path, strerror(errno));
-  while (!ended && getline(&text, &room, file) >= 0) {
-    text[strcspn(text, "\r\n")] = 0;
-    ended = strcmp(text, "end_header") == 0;
-  }
-  free(text);
-  fclose(file);
-  if (ended) return SLAB_OK;
-  return slab_fail(error, SLAB_BAD, "%s: cannot be read as a mesh: its header has no end",
-                   loading->path);
-}
-
 enum slab_result scene_text_read(struct scene_loading *loading, struct slab_error *error) {
   if (loading->format == SCENE_OBJ) return read_lines(loading, loading->path, read_obj_line, error);
-  if (loading->format == SCENE_PLY) return read_ply(loading, error);
+  if (loading->format == SCENE_PLY) return scene_ply_check(loading->path, error);
   if (loading->format == SCENE_GLTF && loading->needs == SCENE_SURFACES)
     return read_gltf(loading, error);
   return SLAB_OK;

@@ -1,0 +1,132 @@
+/* scene_ply.c - is a PLY file whole? See scene_load.h. */
+#include <errno.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene_load.h"
+
+enum { PROPERTIES = 64, ELEMENTS = 16 };
+
+struct ply_property {
+  size_t size;       /* bytes of a number, or of a list's items */
+  size_t count_size; /* bytes of a list's length; 0: no list */
+};
+
+struct ply_element {
+  unsigned long long count;
+  int properties;
+  struct ply_property property[PROPERTIES];
+};
+
+struct ply {
+  FILE *file;
+  const char *path;
+  bool binary, big_endian;
+  int elements;
+  struct ply_element element[ELEMENTS];
+};
+
+static size_t type_size(const char *name) {
+  static const struct {
+    const char *name;
+    size_t size;
+  } types[] = {{"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},
+               {"short", 2}, {"ushort", 2},  {"int16", 2},  {"uint16", 2},
+               {"int", 4},   {"uint", 4},    {"int32", 4},  {"uint32", 4},
+               {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+  for (size_t k = 0; k < sizeof types / sizeof *types; ++k)
+    if (strcmp(name, types[k].name) == 0) return types[k].size;
+  return 0;
+}
+
+static enum slab_result bad_header(const struct ply *ply, const char *line,
+                                   struct slab_error *error) {
+  return slab_fail(error, SLAB_BAD, "%s: cannot be read as a mesh: its header says '%s'", ply->path,
+                   line);
+}
+
+static enum slab_result read_header_line(struct ply *ply, const char *line,
+                                         struct slab_error *error) {
+  char words[4][32] = {"", "", "", ""};
+  sscanf(line, "%31s %31s %31s %31s", words[0], words[1], words[2], words[3]);
+  if (strcmp(words[0], "format") == 0) {
+    ply->binary = strncmp(words[1], "binary", 6) == 0;
+    ply->big_endian = strcmp(words[1], "binary_big_endian") == 0;
+  } else if (strcmp(words[0], "element") == 0) {
+    char *end;
+    if (ply->elements == ELEMENTS) return bad_header(ply, line, error);
+    struct ply_element *element = &ply->element[ply->elements++];
+    element->count = strtoull(words[2], &end, 10);
+    if (end == words[2] || *end || words[2][0] == '-') return bad_header(ply, line, error);
+  } else if (strcmp(words[0], "property") == 0) {
+    struct ply_element *element = ply->elements ? &ply->element[ply->elements - 1] : NULL;
+    if (!element || element->properties == PROPERTIES) return bad_header(ply, line, error);
+    struct ply_property *property = &element->property[element->properties++];
+    bool list = strcmp(words[1], "list") == 0;
+    property->count_size = list ? type_size(words[2]) : 0;
+    property->size = type_size(words[list ? 3 : 1]);
+    if (!property->size || (list && !property->count_size)) return bad_header(ply, line, error);
+  }
+  return SLAB_OK;
+}
+
+static enum slab_result read_header(struct ply *ply, struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  char *line = NULL;
+  size_t room = 0;
+  bool ended = false;
+  while (!result && !ended && getline(&line, &room, ply->file) >= 0) {
+    line[strcspn(line, "\r\n")] = 0;
+    ended = strcmp(line, "end_header") == 0;
+    if (!ended) result = read_header_line(ply, line, error);
+  }
+  free(line);
+  if (!result && !ended)
+    result = slab_fail(error, SLAB_BAD, "%s: cannot be read as a mesh: its header has no end",
+                       ply->path);
+  return result;
+}
+
+static bool skip(struct ply *ply, unsigned long long bytes) {
+  char buffer[4096];
+  while (bytes > 0) {
+    size_t part = bytes < sizeof buffer ? (size_t)bytes : sizeof buffer;
+    if (fread(buffer, 1, part, ply->file) != part) return false;
+    bytes -= part;
+  }
+  return true;
+}
+
+static bool skip_property(struct ply *ply, const struct ply_property *property) {
+  unsigned char bytes[8];
+  uint64_t count = 0;
+  if (property->count_size == 0) return skip(ply, property->size);
+  if (fread(bytes, 1, property->count_size, ply->file) != property->count_size) return false;
+  for (size_t k = 0; k < property->count_size; ++k)
+    count = count << 8 | bytes[ply->big_endian ? k : property->count_size - 1 - k];
+  return count <= UINT32_MAX && skip(ply, count * property->size);
+}
+
+/* Text is left to assimp, which notices when it ends. */
+static enum slab_result skip_data(struct ply *ply, struct slab_error *error) {
+  for (int e = 0; e < ply->elements && ply->binary; ++e) {
+    const struct ply_element *element = &ply->element[e];
+    for (unsigned long long k = 0; k < element->count && element->properties > 0; ++k)
+      for (int p = 0; p < element->properties; ++p)
+        if (!skip_property(ply, &element->property[p]))
+          return slab_fail(error, SLAB_BAD, "%s: is cut off: element %llu of %llu is not whole",
+                           ply->path, k + 1, element->count);
+  }
+  return SLAB_OK;
+}
+
+enum slab_result scene_ply_check(const char *path, struct slab_error *error) {
+  struct ply ply = {.path = path, .file = fopen(path, "re")};
+  if (!ply.file) return slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
+  enum slab_result result = read_header(&ply, error);
+  if (!result) result = skip_data(&ply, error);
+  fclose(ply.file);
+  return result;
+}
