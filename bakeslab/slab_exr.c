@@ -246,6 +246,7 @@ enum slab_result slab_exr_read_block(struct slab_exr *exr, int part, int column,
 void slab_picture_free(struct slab_picture *picture) {
   if (!picture) return;
   free(picture->rgb);
+  free(picture->error);
   memset(picture, 0, sizeof *picture);
 }
 

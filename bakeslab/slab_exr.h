@@ -17,7 +17,9 @@ extern "C" {
 
 struct slab_picture {
   int width, height;
-  float *rgb; /* owned */
+  float *rgb;   /* owned */
+  float *error; /* the layer `error`: how far off each value may be; owned, NULL for none.
+                   Written with float only, not read. */
 };
 
 void slab_picture_free(struct slab_picture *picture);

@@ -13,6 +13,7 @@ struct slab_raster {
   double white[3];               /* LogLuv: factors on XYZ before encoding */
   char *text;                    /* the page's JSON, or NULL */
   const float *rgb;              /* width * height interleaved pixels, when writing */
+  const float *error;            /* the same, EXR only: the layer `error`; NULL: none */
 };
 
 /* Pixels of a block, as read_block functions deliver it: rows of block_width

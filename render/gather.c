@@ -145,16 +145,17 @@ static double pi_error(const struct strips strips[2]) {
   return 5.0 / 3 * half * half + half / 2 / sqrt(fewest);
 }
 
-static enum gather_method choose(struct gather *gather, const struct strips strips[2]) {
+/* The method for this receiver and page, and its predicted relative error. */
+static enum gather_method choose(const struct gather *gather, const struct strips strips[2],
+                                 double *error) {
   enum gather_method method = gather->settings->method;
-  double error = gather->settings->tolerance;
+  *error = gather->settings->tolerance;
   bool cheapest = method == GATHER_AUTO || method == GATHER_LEVELS;
   if (cheapest || method == GATHER_PI || method == GATHER_MIDPOINT) {
     double single = pi_error(strips);
-    if (cheapest) method = single <= error ? GATHER_PI : GATHER_REFERENCE;
-    if (method != GATHER_REFERENCE) error = single;
+    if (cheapest) method = single <= *error ? GATHER_PI : GATHER_REFERENCE;
+    if (method != GATHER_REFERENCE) *error = single;
   }
-  gather->counts.error = fmax(gather->counts.error, error);
   return method;
 }
 
@@ -269,7 +270,10 @@ static enum slab_result take_look(struct gather *gather, const struct look *look
     ++gather->counts.pages_behind;
     return SLAB_OK;
   }
-  enum gather_method method = choose(gather, gather->whole);
+  double predicted;
+  enum gather_method method = choose(gather, gather->whole, &predicted);
+  gathered[look->index].error = fmax(gathered[look->index].error, predicted);
+  gather->counts.error = fmax(gather->counts.error, predicted);
   if (!gather->settings->occlusion)
     return sum(gather, look, &view, gather->whole, method, gathered, error);
   result = find_visible(gather, &view, look->receiver, error);

@@ -40,6 +40,7 @@ struct gathered {
   double irradiance[3];
   double gloss[3]; /* integral of L (N.H)^shininess over the solid angle above the tangent
                       plane; 0 for matte receivers */
+  double error;    /* predicted, relative: the largest of its pages' */
 };
 
 struct gather_counts {
@@ -49,7 +50,7 @@ struct gather_counts {
   uint64_t shadow_rays;
   uint64_t pages_behind; /* pages that were skipped: the receiver is behind them, beside all
                             that they emit, or they are below its tangent plane */
-  double error;          /* largest predicted relative error of a receiver's matte light */
+  double error;          /* the largest of the receivers' */
 };
 
 /* What some methods make of the slabs before the first receiver: indexed by page, counted

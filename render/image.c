@@ -14,7 +14,7 @@ struct worker {
   struct shade_hit hits[TILE_PIXELS];
   struct receiver receivers[TILE_PIXELS];
   struct gathered gathered[TILE_PIXELS];
-  double sum[TILE_PIXELS][3];
+  double sum[TILE_PIXELS][3], error[TILE_PIXELS][3];
 };
 
 struct image {
@@ -61,9 +61,12 @@ static void add(const struct area area, struct worker *worker) {
   for (int pixel = 0; pixel < area.width * area.height; ++pixel) {
     const struct shade_hit *hit = &worker->hits[pixel];
     const struct gathered *gathered = hit->lit ? &worker->gathered[lit++] : NULL;
-    double rgb[3];
-    shade_radiance(hit, gathered, rgb);
-    for (int c = 0; c < 3; ++c) worker->sum[pixel][c] += rgb[c];
+    double rgb[3], error[3];
+    shade_radiance(hit, gathered, rgb, error);
+    for (int c = 0; c < 3; ++c) {
+      worker->sum[pixel][c] += rgb[c];
+      worker->error[pixel][c] += error[c];
+    }
   }
 }
 
@@ -74,6 +77,7 @@ static enum slab_result do_tile(void *context, int tile, int number, struct slab
   struct area area = area_of(image, tile);
   int samples = settings->samples * settings->samples;
   memset(worker->sum, 0, sizeof worker->sum);
+  memset(worker->error, 0, sizeof worker->error);
   for (int sample = 0; sample < samples; ++sample) {
     int count = trace(settings, area, sample, worker);
     if (count > 0) {
@@ -86,8 +90,11 @@ static enum slab_result do_tile(void *context, int tile, int number, struct slab
   for (int pixel = 0; pixel < area.width * area.height; ++pixel) {
     size_t x = (size_t)(area.left + pixel % area.width),
            y = (size_t)(area.top + pixel / area.width);
-    float *rgb = image->picture->rgb + 3 * (y * (size_t)settings->width + x);
-    for (int c = 0; c < 3; ++c) rgb[c] = (float)(worker->sum[pixel][c] / samples);
+    size_t first = 3 * (y * (size_t)settings->width + x);
+    for (size_t c = 0; c < 3; ++c) {
+      image->picture->rgb[first + c] = (float)(worker->sum[pixel][c] / samples);
+      image->picture->error[first + c] = (float)(worker->error[pixel][c] / samples);
+    }
   }
   return SLAB_OK;
 }
@@ -105,9 +112,11 @@ enum slab_result image_render(const struct image_settings *settings, struct slab
   struct image image = {.settings = settings, .picture = picture, .columns = columns};
   enum slab_result result = SLAB_OK;
   *picture = (struct slab_picture){.width = settings->width, .height = settings->height};
-  picture->rgb = calloc((size_t)settings->width * (size_t)settings->height, 3 * sizeof(float));
+  size_t pixels = (size_t)settings->width * (size_t)settings->height;
+  picture->rgb = calloc(pixels, 3 * sizeof(float));
+  picture->error = calloc(pixels, 3 * sizeof(float));
   image.workers = calloc((size_t)settings->threads, sizeof *image.workers);
-  if (!picture->rgb || !image.workers)
+  if (!picture->rgb || !picture->error || !image.workers)
     result = slab_fail(error, SLAB_MEMORY, "out of memory for a picture of %dx%d", settings->width,
                        settings->height);
   for (int k = 0; k < settings->threads && result == SLAB_OK; ++k)
