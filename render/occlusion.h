@@ -30,7 +30,7 @@ bool occlusion_nearest(const struct occlusion *occlusion, const double origin[3]
                        const double direction[3], struct occlusion_hit *hit);
 
 /* Where shadow rays of a receiver start: above the surface along the unit normal (geometric,
- * on the light's side), by more than single precision can confuse: 4e-6 to 8e-6 of half the
+ * on the light's side), by more than single precision can confuse: 1e-6 to 2e-6 of half the
  * scene's diagonal. Surfaces nearer to each other than that are taken as one. */
 void occlusion_lift(const struct occlusion *occlusion, const double position[3],
                     const double normal[3], double lifted[3]);
