@@ -20,7 +20,9 @@ struct arguments {
   struct view_options view;
   const char *output, *preview;
   int samples;
-  double exposure; /* 0: by the picture */
+  double exposure;   /* 0: by the picture */
+  double time_limit; /* seconds; 0: none */
+  double start;      /* of the command, on progress_now's clock */
   bool no_shadows;
 };
 
@@ -32,7 +34,13 @@ struct world {
   struct occlusion *occlusion;
 };
 
-enum { OPTION_SAMPLES = 256, OPTION_PREVIEW, OPTION_EXPOSURE, OPTION_NO_SHADOWS };
+enum {
+  OPTION_SAMPLES = 256,
+  OPTION_PREVIEW,
+  OPTION_EXPOSURE,
+  OPTION_NO_SHADOWS,
+  OPTION_TIME_LIMIT
+};
 
 static void check_output(const char *path, struct argp_state *state) {
   size_t length = path ? strlen(path) : 0;
@@ -65,6 +73,10 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   case OPTION_EXPOSURE:
     if (!options_number(value, &arguments->exposure) || !(arguments->exposure > 0))
       argp_error(state, "--exposure %s: must be a number above 0", value);
+    return 0;
+  case OPTION_TIME_LIMIT:
+    if (!options_number(value, &arguments->time_limit) || !(arguments->time_limit > 0))
+      argp_error(state, "--time-limit %s: must be a number of seconds above 0", value);
     return 0;
   case OPTION_NO_SHADOWS:
     arguments->no_shadows = true;
@@ -146,6 +158,18 @@ static void show_progress(void *context, double done) {
   progress_show(context, done, "image");
 }
 
+/* What the time allowed. */
+static void tell_report(const struct arguments *arguments, const struct image_report *report) {
+  if (!(arguments->time_limit > 0)) return;
+  if (report->late)
+    cli_note("%s: note: %g s do not suffice for one pass; this is the coarsest picture",
+             arguments->output, arguments->time_limit);
+  cli_note("%s: note: gathered with tolerances from %.2g to %.2g in %d pass%s; relative error at "
+           "most %.2g",
+           arguments->output, report->best_tolerance, report->worst_tolerance, report->passes,
+           report->passes > 1 ? "es" : "", report->error);
+}
+
 static enum slab_result render(const struct arguments *arguments, const struct world *world,
                                struct slab_picture *picture, struct stats *stats,
                                struct slab_error *error) {
@@ -165,11 +189,15 @@ static enum slab_result render(const struct arguments *arguments, const struct w
       .samples = arguments->samples,
       .threads = options->threads,
       .progress = show_progress,
-      .progress_context = &progress};
+      .progress_context = &progress,
+      .until = arguments->time_limit > 0 ? arguments->start + arguments->time_limit : 0};
+  struct image_report report;
   memcpy(settings.shade.background, view->background, sizeof view->background);
   progress_start(&progress, cli_quiet(), 0);
-  enum slab_result result = image_render(&settings, picture, &stats->counts, error);
+  enum slab_result result = image_render(&settings, picture, &report, error);
   progress_end(&progress);
+  if (result == SLAB_OK) tell_report(arguments, &report);
+  stats->counts = report.counts;
   return result;
 }
 
@@ -222,6 +250,8 @@ static const struct argp_option options_list[] = {
     {"exposure", OPTION_EXPOSURE, "X", 0,
      "Radiance that is white in the preview (default: 99 % of its pixels are at most 0.9 of it)",
      0},
+    {"time-limit", OPTION_TIME_LIMIT, "S", 0,
+     "The best picture that S seconds allow, down to --tolerance; says how good it got", 0},
     {"no-shadows", OPTION_NO_SHADOWS, NULL, 0, "Light passes through the mesh", 0},
     {0}};
 
@@ -243,7 +273,7 @@ int cmd_image(int argc, char **argv) {
                             .children = children,
                             .args_doc = "MESH",
                             .doc = help_text};
-  struct arguments arguments = {.samples = 1};
+  struct arguments arguments = {.samples = 1, .start = progress_now()};
   struct slab_error error = {{0}};
   argp_parse(&argp, argc, argv, 0, NULL, &arguments);
   int status = run(&arguments, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);

@@ -1,10 +1,15 @@
 /* image.c - see image.h. */
 #include "image.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "slab_progress.h"
 #include "stats.h"
+
+/* Of the first pass where time is limited. */
+static const double coarsest_tolerance = 0.3;
 
 enum { TILE_PIXELS = IMAGE_TILE * IMAGE_TILE };
 
@@ -17,11 +22,22 @@ struct worker {
   double sum[TILE_PIXELS][3], error[TILE_PIXELS][3];
 };
 
+/* What is known of a tile of the picture. */
+struct tile {
+  int number;
+  double error;          /* sum of the layer of errors */
+  double relative_error; /* the largest of its receivers' */
+  double tolerance;
+};
+
 struct image {
   const struct image_settings *settings;
+  struct gather_settings gather; /* of the pass */
   struct slab_picture *picture;
   struct worker *workers;
-  int columns; /* of tiles */
+  struct tile *tiles; /* in the order of the pass */
+  int columns, count; /* of tiles */
+  bool first;         /* pass: it is finished even if it is late */
 };
 
 struct area {
@@ -56,7 +72,9 @@ static int trace(const struct image_settings *settings, struct area area, int sa
   return count;
 }
 
-static void add(const struct area area, struct worker *worker) {
+/* Returns the largest relative error. */
+static double add(const struct area area, struct worker *worker) {
+  double worst = 0;
   int lit = 0;
   for (int pixel = 0; pixel < area.width * area.height; ++pixel) {
     const struct shade_hit *hit = &worker->hits[pixel];
@@ -67,35 +85,56 @@ static void add(const struct area area, struct worker *worker) {
       worker->sum[pixel][c] += rgb[c];
       worker->error[pixel][c] += error[c];
     }
+    if (gathered) worst = fmax(worst, gathered->error);
   }
+  return worst;
 }
 
-static enum slab_result do_tile(void *context, int tile, int number, struct slab_error *error) {
+/* Puts the means into the picture. Returns the sum of the errors. */
+static double store(const struct image *image, const struct area area,
+                    const struct worker *worker) {
+  const struct image_settings *settings = image->settings;
+  int samples = settings->samples * settings->samples;
+  double sum = 0;
+  for (int pixel = 0; pixel < area.width * area.height; ++pixel) {
+    size_t x = (size_t)(area.left + pixel % area.width);
+    size_t y = (size_t)(area.top + pixel / area.width);
+    size_t first = 3 * (y * (size_t)settings->width + x);
+    for (size_t c = 0; c < 3; ++c) {
+      image->picture->rgb[first + c] = (float)(worker->sum[pixel][c] / samples);
+      image->picture->error[first + c] = (float)(worker->error[pixel][c] / samples);
+      sum += worker->error[pixel][c] / samples;
+    }
+  }
+  return sum;
+}
+
+static bool time_is_over(const struct image_settings *settings) {
+  return settings->until > 0 && progress_now() >= settings->until;
+}
+
+static enum slab_result do_tile(void *context, int index, int number, struct slab_error *error) {
   const struct image *image = context;
   const struct image_settings *settings = image->settings;
   struct worker *worker = &image->workers[number];
-  struct area area = area_of(image, tile);
-  int samples = settings->samples * settings->samples;
+  struct tile *tile = &image->tiles[index];
+  struct area area = area_of(image, tile->number);
+  double worst = 0;
+  if (!image->first && time_is_over(settings)) return SLAB_OK;
   memset(worker->sum, 0, sizeof worker->sum);
   memset(worker->error, 0, sizeof worker->error);
-  for (int sample = 0; sample < samples; ++sample) {
+  for (int sample = 0; sample < settings->samples * settings->samples; ++sample) {
     int count = trace(settings, area, sample, worker);
     if (count > 0) {
       enum slab_result result =
           gather_light(worker->gather, worker->receivers, count, worker->gathered, error);
       if (result != SLAB_OK) return result;
     }
-    add(area, worker);
+    worst = fmax(worst, add(area, worker));
   }
-  for (int pixel = 0; pixel < area.width * area.height; ++pixel) {
-    size_t x = (size_t)(area.left + pixel % area.width),
-           y = (size_t)(area.top + pixel / area.width);
-    size_t first = 3 * (y * (size_t)settings->width + x);
-    for (size_t c = 0; c < 3; ++c) {
-      image->picture->rgb[first + c] = (float)(worker->sum[pixel][c] / samples);
-      image->picture->error[first + c] = (float)(worker->error[pixel][c] / samples);
-    }
-  }
+  tile->error = store(image, area, worker);
+  tile->relative_error = worst;
+  tile->tolerance = image->gather.tolerance;
   return SLAB_OK;
 }
 
@@ -105,30 +144,91 @@ static void show_progress(void *context, double done) {
   if (settings->progress) settings->progress(settings->progress_context, done);
 }
 
+/* Renders all tiles, or those that time allows. */
+static enum slab_result run_pass(struct image *image, struct image_report *report,
+                                 struct slab_error *error) {
+  const struct image_settings *settings = image->settings;
+  enum slab_result result = SLAB_OK;
+  for (int k = 0; k < settings->threads && result == SLAB_OK; ++k)
+    result = gather_create(&image->gather, &image->workers[k].gather, error);
+  if (result == SLAB_OK)
+    result = tiles_run(settings->threads, image->count, do_tile, show_progress, image, error);
+  for (int k = 0; k < settings->threads; ++k) {
+    struct gather *gather = image->workers[k].gather;
+    if (gather) stats_add_counts(&report->counts, gather_counts(gather));
+    gather_free(gather);
+    image->workers[k].gather = NULL;
+  }
+  ++report->passes;
+  return result;
+}
+
+static int by_error(const void *left, const void *right) {
+  const struct tile *a = left, *b = right;
+  if (a->error != b->error) return a->error > b->error ? -1 : 1;
+  return (a->number > b->number) - (a->number < b->number);
+}
+
+/* Shadows no finer than the tolerance calls for: blocks of 1/4 and edges of 1/8 at first. */
+static void coarsen_shadows(struct gather_settings *gather) {
+  double edge = fmin(fmax(2 / gather->tolerance, 8), gather->shadow_edge);
+  gather->shadow_edge = (int)edge;
+  gather->shadow_grid = (int)fmin(gather->shadow_grid, fmax(4, edge / 4));
+}
+
+/* Passes with ever smaller tolerances; one with that asked for where time does not matter. */
+static enum slab_result run_passes(struct image *image, struct image_report *report,
+                                   struct slab_error *error) {
+  const struct image_settings *settings = image->settings;
+  double wanted = settings->gather.tolerance, tolerance = wanted;
+  if (settings->until > 0 && settings->gather.method == GATHER_AUTO)
+    tolerance = fmax(coarsest_tolerance, wanted);
+  for (image->first = true;; image->first = false) {
+    image->gather = settings->gather;
+    image->gather.tolerance = tolerance;
+    if (tolerance > wanted) coarsen_shadows(&image->gather);
+    enum slab_result result = run_pass(image, report, error);
+    if (result != SLAB_OK) return result;
+    if (image->first) report->late = time_is_over(settings);
+    if (tolerance <= wanted || time_is_over(settings)) return SLAB_OK;
+    qsort(image->tiles, (size_t)image->count, sizeof *image->tiles, by_error);
+    tolerance = fmax(tolerance / 10, wanted);
+  }
+}
+
+static void sum_up(const struct image *image, struct image_report *report) {
+  report->best_tolerance = INFINITY;
+  for (int k = 0; k < image->count; ++k) {
+    report->error = fmax(report->error, image->tiles[k].relative_error);
+    report->worst_tolerance = fmax(report->worst_tolerance, image->tiles[k].tolerance);
+    report->best_tolerance = fmin(report->best_tolerance, image->tiles[k].tolerance);
+  }
+  report->counts.error = report->error;
+}
+
 enum slab_result image_render(const struct image_settings *settings, struct slab_picture *picture,
-                              struct gather_counts *counts, struct slab_error *error) {
+                              struct image_report *report, struct slab_error *error) {
   int columns = (settings->width + IMAGE_TILE - 1) / IMAGE_TILE;
   int rows = (settings->height + IMAGE_TILE - 1) / IMAGE_TILE;
-  struct image image = {.settings = settings, .picture = picture, .columns = columns};
-  enum slab_result result = SLAB_OK;
-  *picture = (struct slab_picture){.width = settings->width, .height = settings->height};
   size_t pixels = (size_t)settings->width * (size_t)settings->height;
-  picture->rgb = calloc(pixels, 3 * sizeof(float));
-  picture->error = calloc(pixels, 3 * sizeof(float));
+  struct image image = {
+      .settings = settings, .picture = picture, .columns = columns, .count = columns * rows};
+  enum slab_result result = SLAB_OK;
+  *report = (struct image_report){0};
+  *picture = (struct slab_picture){.width = settings->width,
+                                   .height = settings->height,
+                                   .rgb = calloc(pixels, 3 * sizeof(float)),
+                                   .error = calloc(pixels, 3 * sizeof(float))};
   image.workers = calloc((size_t)settings->threads, sizeof *image.workers);
-  if (!picture->rgb || !picture->error || !image.workers)
+  image.tiles = calloc((size_t)image.count, sizeof *image.tiles);
+  if (!picture->rgb || !picture->error || !image.workers || !image.tiles)
     result = slab_fail(error, SLAB_MEMORY, "out of memory for a picture of %dx%d", settings->width,
                        settings->height);
-  for (int k = 0; k < settings->threads && result == SLAB_OK; ++k)
-    result = gather_create(&settings->gather, &image.workers[k].gather, error);
-  if (result == SLAB_OK)
-    result = tiles_run(settings->threads, columns * rows, do_tile, show_progress, &image, error);
-  for (int k = 0; image.workers && k < settings->threads; ++k) {
-    struct gather *gather = image.workers[k].gather;
-    if (gather) stats_add_counts(counts, gather_counts(gather));
-    gather_free(gather);
-  }
+  for (int k = 0; result == SLAB_OK && k < image.count; ++k) image.tiles[k].number = k;
+  if (result == SLAB_OK) result = run_passes(&image, report, error);
+  if (result == SLAB_OK) sum_up(&image, report);
   free(image.workers);
+  free(image.tiles);
   if (result != SLAB_OK) slab_picture_free(picture);
   return result;
 }

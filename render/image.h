@@ -5,6 +5,8 @@
 #ifndef IMAGE_H
 #define IMAGE_H
 
+#include <stdbool.h>
+
 #include "camera.h"
 #include "gather.h"
 #include "shade.h"
@@ -22,10 +24,25 @@ struct image_settings {
   int threads;              /* >= 1 */
   tiles_progress *progress; /* may be NULL */
   void *progress_context;
+  double until; /* on progress_now's clock; 0: as long as it takes */
 };
 
-/* Allocates and fills the picture; slab_picture_free frees it. Counts are added to *counts. */
+/* What came out. */
+struct image_report {
+  struct gather_counts counts;
+  int passes;
+  double error;                           /* the largest predicted relative error in the picture */
+  double worst_tolerance, best_tolerance; /* with which its tiles were gathered */
+  bool late;                              /* the first pass alone took longer than allowed */
+};
+
+/* Allocates and fills the picture and its layer of errors; slab_picture_free frees it.
+ *
+ * With a time to end, the whole picture is first made with a tolerance of 0.3, then tile by
+ * tile, those with the largest errors first, with a tenth of that, and so on until the time
+ * is over or the tolerance asked for is reached everywhere. The first pass is always finished.
+ * Edges of shadows follow: to about half the tolerance of a pass. */
 enum slab_result image_render(const struct image_settings *settings, struct slab_picture *picture,
-                              struct gather_counts *counts, struct slab_error *error);
+                              struct image_report *report, struct slab_error *error);
 
 #endif
