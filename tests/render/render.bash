@@ -20,20 +20,24 @@ letter_lamp() {
   "$BAKESLAB" include letter_f.tif -o letter_f.inc
 }
 
-# The mean of each channel, with commas between them, of what oiiotool's arguments make.
-mean_of() { oiiotool "$@" --echo '{TOP.AVGCOLOR}'; }
+# The mean of R, G and B, with commas between them, of what oiiotool's arguments make. Pictures
+# have a layer of errors besides.
+mean_of() { oiiotool "$@" --ch R,G,B --echo '{TOP.AVGCOLOR}'; }
 
 # relative A B: RMS of the difference over RMS of B, in %.
 relative() {
-  mean_of "$1" "$2" --sub --dup --mul --echo '{TOP.AVGCOLOR}' "$2" --dup --mul | paste -sd, |
+  local rgb=(--ch 'R,G,B')
+  mean_of "$1" "${rgb[@]}" "$2" "${rgb[@]}" --sub --dup --mul --echo '{TOP.AVGCOLOR}' \
+    "$2" "${rgb[@]}" --dup --mul | paste -sd, |
     awk -F, '{ printf "%.6f", 100*sqrt(($1 + $2 + $3)/($4 + $5 + $6)) }'
 }
 
 # correlation A B: Pearson's, of their first channels.
 correlation() {
-  local mean=(--ch 0 --echo '{TOP.AVGCOLOR}')
-  oiiotool "$1" "${mean[@]}" "$2" "${mean[@]}" "$1" --dup --mul "${mean[@]}" "$2" --dup --mul "${mean[@]}" \
-    "$1" "$2" --mul "${mean[@]}" | paste -sd' ' |
+  local red=(--ch R) mean=(--echo '{TOP.AVGCOLOR}')
+  oiiotool "$1" "${red[@]}" "${mean[@]}" "$2" "${red[@]}" "${mean[@]}" \
+    "$1" "${red[@]}" --dup --mul "${mean[@]}" "$2" "${red[@]}" --dup --mul "${mean[@]}" \
+    "$1" "${red[@]}" "$2" "${red[@]}" --mul "${mean[@]}" | paste -sd' ' |
     awk '{ printf "%.6f", ($5 - $1*$2)/sqrt(($3 - $1*$1)*($4 - $2*$2)) }'
 }
 
