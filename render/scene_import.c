@@ -78,9 +78,9 @@ static bool mesh_normal(const struct instance *instance, unsigned vertex, double
 
 /* `array` is the address of a pointer of any type. */
 static bool grow(void *array, size_t room, size_t size) {
-  void *grown;
-  memcpy(&grown, array, sizeof grown);
-  grown = reallocarray(grown, room, size);
+  void *old;
+  memcpy(&old, array, sizeof old);
+  void *grown = reallocarray(old, room, size);
   if (grown) memcpy(array, &grown, sizeof grown);
   return grown != NULL;
 }

@@ -156,7 +156,7 @@ static enum slab_result decode(const char *name, const char *said, struct slab_p
 enum slab_result scene_texture_read(const char *path, const void *bytes, size_t size,
                                     const char *suffix, struct slab_picture *picture,
                                     struct slab_error *error) {
-  struct scratch scratch;
+  struct scratch scratch = {"", ""};
   struct slab_error inner = {""};
   char out[600], said[512];
   bool made;
