@@ -3,68 +3,24 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "vector.h"
-
-static const char BLANKS[] = " \t\r\n";
-
-/* Reads `count` finite numbers with commas between them, up to a blank or the end. */
-static bool read_numbers(const char *text, int count, double *out) {
-  for (int k = 0; k < count; ++k) {
-    char *end;
-    if (k > 0 && *text++ != ',') return false;
-    if (strchr(BLANKS, *text)) return false; /* strtod would skip it; \0 too */
-    out[k] = strtod(text, &end);
-    if (end == text || !isfinite(out[k])) return false;
-    text = end;
-  }
-  return strchr(BLANKS, *text) != NULL;
-}
-
-struct field {
-  const char *name; /* with its = */
-  const char *form;
-  int count;
-  double *out;
-  bool seen;
-};
-
-static enum slab_result read_fields(const char *text, struct field *fields, int count,
-                                    struct slab_error *error) {
-  const char *at = text + strspn(text, BLANKS);
-  while (*at) {
-    int length = (int)strcspn(at, BLANKS);
-    struct field *field = fields;
-    while (field < fields + count && strncmp(at, field->name, strlen(field->name)) != 0) ++field;
-    if (field == fields + count)
-      return slab_fail(error, SLAB_BAD,
-                       "camera '%s': '%.*s' is none of from=X,Y,Z at=X,Y,Z up=X,Y,Z fov=DEG", text,
-                       length, at);
-    if (field->seen)
-      return slab_fail(error, SLAB_BAD, "camera '%s': %s is there twice", text, field->form);
-    if (!read_numbers(at + strlen(field->name), field->count, field->out))
-      return slab_fail(error, SLAB_BAD, "camera '%s': '%.*s' is not %s with finite numbers", text,
-                       length, at, field->form);
-    field->seen = true;
-    at += length;
-    at += strspn(at, BLANKS);
-  }
-  return SLAB_OK;
-}
+#include "words.h"
 
 enum slab_result camera_parse(const char *text, struct camera *camera, struct slab_error *error) {
   *camera = (struct camera){.up = {0, 1, 0}, .fov = 60};
-  struct field fields[] = {{"from=", "from=X,Y,Z", 3, camera->from, false},
-                           {"at=", "at=X,Y,Z", 3, camera->at, false},
-                           {"up=", "up=X,Y,Z", 3, camera->up, false},
-                           {"fov=", "fov=DEG", 1, &camera->fov, false}};
-  enum slab_result result = read_fields(text, fields, 4, error);
-  if (result) return result;
+  struct word_key keys[] = {{"from=X,Y,Z", 3, camera->from, false},
+                            {"at=X,Y,Z", 3, camera->at, false},
+                            {"up=X,Y,Z", 3, camera->up, false},
+                            {"fov=DEG", 1, &camera->fov, false}};
+  char what[256];
+  snprintf(what, sizeof what, "camera '%s'", text);
+  enum slab_result result = words_parse(what, text, keys, sizeof keys / sizeof *keys, error);
+  if (result != SLAB_OK) return result;
   for (int k = 0; k < 2; ++k)
-    if (!fields[k].seen)
-      return slab_fail(error, SLAB_BAD, "camera '%s': %s is missing", text, fields[k].form);
+    if (!keys[k].seen) return slab_fail(error, SLAB_BAD, "%s: %s is missing", what, keys[k].form);
   if (!(camera->fov > 0 && camera->fov < 180))
     return slab_fail(error, SLAB_BAD, "camera '%s': fov must be between 0 and 180 degrees", text);
   double forward[3], up[3], right[3];

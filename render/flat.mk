@@ -15,3 +15,27 @@ MAN_PAGES += $(RENDER_PAGES)
 
 $(RENDER_PAGES): $(B)/man/%.1: bakeslab/man.sh $(RENDER_BIN) | $(SETUP_FIRST)
 	$(man_page)
+
+# Figures of the paper. The lamp at the paper's resolution is baked once: only another lamp
+# makes it anew, not another bakeslab.
+FIGURES := build/figures
+FIGURE3 := render/scenes/figure3.obj render/scenes/figure3.mtl
+
+$(FIGURES)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BAKE_BIN) $(SETUP_FIRST)
+	@mkdir -p $(@D)
+	@echo 'Baking $< at 64x64 x 64x64 (10 CPU minutes; goes on where it was interrupted)'
+	@$(BAKE_BIN) bake $< -o $@ --uv 64x64 --st 64x64 --uniform --rays 4
+
+# The scene of figure 3, lit by the first prerequisite.
+define figure3
+	@echo 'Rendering $@'
+	@$(RENDER_BIN) image $(FIGURE3:%.mtl=) --light '$< at=0,36,0' --camera 'from=-12,34,-100 at=-2,13,0 fov=52' \
+	  --size 480x300 --samples 2 --method reference --exposure 0.8 --preview $(@:.exr=.png) --stats $(@:.exr=.json) -o $@
+endef
+
+$(FIGURES)/figure3.exr: $(FIGURES)/parabolic.tif $(FIGURE3) $(RENDER_BIN)
+	$(figure3)
+
+.PHONY: figures
+figures: $(FIGURES)/figure3.exr ## render the figures of the paper
+	@echo 'Look at $(^:.exr=.png)'

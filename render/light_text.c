@@ -1,97 +1,51 @@
 /* light_text.c - see light_text.h. */
 #include "light_text.h"
 
-#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* `count` finite numbers with commas between them, up to `end`. */
-static bool parse_numbers(const char *text, const char *end, int count, double *numbers) {
-  for (int k = 0; k < count; ++k) {
-    char *after;
-    if (text >= end) return false;
-    numbers[k] = strtod(text, &after);
-    if (after == text || after > end || !isfinite(numbers[k])) return false;
-    text = after;
-    if (k + 1 < count && *text++ != ',') return false;
-  }
-  return text == end;
-}
+#include "words.h"
 
-struct key {
-  const char *name;
-  int count;
-  double *numbers;
-  bool *seen;
-};
-
-static const char *skip_blanks(const char *text) {
-  return text + strspn(text, " \t\r\n");
-}
-
-/* The length of the name of a KEY= at the start of the text; 0 where there is none. */
-static size_t key_length(const char *text) {
-  size_t length = strspn(text, "abcdefghijklmnopqrstuvwxyz");
-  return text[length] == '=' ? length : 0;
-}
-
+/* Where the file's name ends: before the first KEY=VALUE. */
 static const char *end_of_path(const char *text) {
   const char *end = text;
-  for (const char *word = skip_blanks(text); *word; word = skip_blanks(end)) {
-    if (word > text && key_length(word) > 0) break;
-    end = word + strcspn(word, " \t\r\n");
+  for (const char *word = text; *word; word = end + strspn(end, WORDS_BLANKS)) {
+    if (word > text && words_key(word) > 0) break;
+    end = word + strcspn(word, WORDS_BLANKS);
   }
   return end;
 }
 
-static enum slab_result parse_key(const char *text, const char *word, const char *end,
-                                  const struct key *keys, struct slab_error *error) {
-  size_t length = key_length(word);
-  for (const struct key *key = keys; key->name; ++key) {
-    if (strlen(key->name) != length || strncmp(key->name, word, length) != 0) continue;
-    if (*key->seen) return slab_fail(error, SLAB_BAD, "--light %s: %s= twice", text, key->name);
-    *key->seen = true;
-    if (parse_numbers(word + length + 1, end, key->count, key->numbers)) return SLAB_OK;
-    return slab_fail(error, SLAB_BAD, "--light %s: %s= takes %d finite number%s%s", text, key->name,
-                     key->count, key->count > 1 ? "s" : "",
-                     key->count > 1 ? " with commas between them" : "");
-  }
-  return slab_fail(error, SLAB_BAD,
-                   "--light %s: `%.*s' is none of at=, toward=, up=, matrix=, scale= and gain=",
-                   text, (int)(end - word), word);
-}
-
-static enum slab_result check(const char *text, const struct light_text *light,
+static enum slab_result check(const char *what, const struct light_text *light,
                               struct slab_error *error) {
   if (light->has_matrix && (light->has_at || light->has_toward || light->has_up))
-    return slab_fail(error, SLAB_BAD, "--light %s: matrix= excludes at=, toward= and up=", text);
+    return slab_fail(error, SLAB_BAD, "%s: matrix= excludes at=, toward= and up=", what);
   if (!(light->scale > 0))
-    return slab_fail(error, SLAB_BAD, "--light %s: scale=%g, must be positive", text, light->scale);
+    return slab_fail(error, SLAB_BAD, "%s: scale=%g, must be positive", what, light->scale);
   return SLAB_OK;
 }
 
 enum slab_result light_text_parse(const char *text, struct light_text *light,
                                   struct slab_error *error) {
-  bool scale = false, gain = false;
   *light = (struct light_text){.scale = 1, .gain = 1, .up = {0, 1, 0}};
-  const struct key keys[] = {{"at", 3, light->at, &light->has_at},
-                             {"toward", 3, light->toward, &light->has_toward},
-                             {"up", 3, light->up, &light->has_up},
-                             {"matrix", 12, light->matrix[0], &light->has_matrix},
-                             {"scale", 1, &light->scale, &scale},
-                             {"gain", 1, &light->gain, &gain},
-                             {NULL, 0, NULL, NULL}};
-  text = skip_blanks(text);
+  struct word_key keys[] = {
+      {"at=X,Y,Z", 3, light->at, false},    {"toward=X,Y,Z", 3, light->toward, false},
+      {"up=X,Y,Z", 3, light->up, false},    {"matrix=12 numbers", 12, light->matrix[0], false},
+      {"scale=S", 1, &light->scale, false}, {"gain=G", 1, &light->gain, false}};
+  char what[256];
+  snprintf(what, sizeof what, "--light %s", text);
+  text += strspn(text, WORDS_BLANKS);
   const char *end = end_of_path(text);
-  if (end == text) return slab_fail(error, SLAB_BAD, "--light: names no slab");
+  if (end == text) return slab_fail(error, SLAB_BAD, "%s: names no slab", what);
   light->path = strndup(text, (size_t)(end - text));
   if (!light->path) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  enum slab_result result = SLAB_OK;
-  for (const char *word = skip_blanks(end); *word && result == SLAB_OK; word = skip_blanks(end)) {
-    end = word + strcspn(word, " \t\r\n");
-    result = parse_key(text, word, end, keys, error);
-  }
-  if (result == SLAB_OK) result = check(text, light, error);
+  enum slab_result result = words_parse(what, end, keys, sizeof keys / sizeof *keys, error);
+  light->has_at = keys[0].seen;
+  light->has_toward = keys[1].seen;
+  light->has_up = keys[2].seen;
+  light->has_matrix = keys[3].seen;
+  if (result == SLAB_OK) result = check(what, light, error);
   if (result != SLAB_OK) light_text_free(light);
   return result;
 }

@@ -3,12 +3,12 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tiles.h"
+#include "words.h"
 
 enum {
   OPTION_LIGHT = 1000,
@@ -25,28 +25,13 @@ enum {
 
 enum { MOST_THREADS = 1024, MOST_LEVEL = 30, MOST_SHADOW_GRID = 256, MOST_SHADOW_EDGE = 65536 };
 
-/* A number, and where it ends; strtod would skip blanks. */
-static bool number_at(const char *text, const char **end, double *number) {
-  if (isspace((unsigned char)*text)) return false;
-  char *after;
-  *number = strtod(text, &after);
-  *end = after;
-  return after > text && isfinite(*number);
-}
-
 bool options_number(const char *text, double *number) {
   const char *end;
-  return number_at(text, &end, number) && !*end;
+  return words_number_at(text, &end, number) && !*end;
 }
 
 bool options_numbers(const char *text, int count, double *numbers) {
-  for (int k = 0; k < count; ++k) {
-    const char *end;
-    if (!number_at(text, &end, &numbers[k])) return false;
-    if (*end != (k + 1 < count ? ',' : 0)) return false;
-    text = end + 1;
-  }
-  return true;
+  return !strpbrk(text, WORDS_BLANKS) && words_numbers(text, count, numbers);
 }
 
 bool options_count(const char *text, uint64_t low, uint64_t high, uint64_t *count) {

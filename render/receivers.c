@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "vector.h"
+#include "words.h"
 
 void receivers_free(struct receivers *receivers) {
   free(receivers->receiver);
@@ -16,13 +17,9 @@ void receivers_free(struct receivers *receivers) {
 /* Six numbers and nothing else. */
 static bool parse(const char *line, double numbers[6]) {
   const char *at = line;
-  for (int k = 0; k < 6; ++k) {
-    char *end;
-    numbers[k] = strtod(at, &end);
-    if (end == at || !isfinite(numbers[k])) return false;
-    at = end;
-  }
-  return !at[strspn(at, " \t\r\n")];
+  for (int k = 0; k < 6; ++k, at += strspn(at, WORDS_BLANKS))
+    if (!words_number_at(at, &at, &numbers[k])) return false;
+  return !*at;
 }
 
 static enum slab_result add(struct receivers *receivers, const char *line,
@@ -104,7 +101,7 @@ enum slab_result receivers_read(FILE *in, int most, struct receivers *receivers,
   receivers->count = 0;
   while (result == SLAB_OK && receivers->count < most && getline(&line, &room, in) >= 0) {
     ++receivers->line;
-    const char *start = line + strspn(line, " \t\r\n");
+    const char *start = line + strspn(line, WORDS_BLANKS);
     if (*start && *start != '#') result = add(receivers, start, error);
   }
   if (result == SLAB_OK && ferror(in)) result = slab_fail(error, SLAB_IO, "stdin: read error");
