@@ -61,13 +61,13 @@ PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_man) libcmocka-dev libgmp-dev bats
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
 PACKAGES := $(sort $(PACKAGES_build) \
-  $(call goals_need,demo bench,$(PACKAGES_demo)) \
+  $(call goals_need,demo bench figures,$(PACKAGES_demo)) \
   $(call goals_need,setup test sanitize,$(PACKAGES_test)) \
   $(call goals_need,man install,$(PACKAGES_man)) \
   $(call goals_need,lint,$(PACKAGES_lint)))
 
 # Compiling waits for it where the goal is one that sets up by itself.
-SETUP_FIRST := $(call goals_need,setup demo test bench lint sanitize man install,setup)
+SETUP_FIRST := $(call goals_need,setup demo figures test bench lint sanitize man install,setup)
 
 all: $(BIN) ## build the programs (the default)
 	@:
