@@ -203,7 +203,7 @@ static void add_radiance(const struct light *light, const struct light_page *pag
 
 double light_seen(const struct light *lights, int count, const double origin[3],
                   const double direction[3], double limit, double rgb[3]) {
-  double nearest = INFINITY, point[2];
+  double nearest = INFINITY, point[2] = {0};
   rgb[0] = rgb[1] = rgb[2] = 0;
   for (int l = 0; l < count; ++l)
     for (int page = 0; page < lights[l].count; ++page)

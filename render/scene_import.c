@@ -82,6 +82,7 @@ static bool grow(void *array, size_t room, size_t size) {
   memcpy(&old, array, sizeof old);
   void *grown = reallocarray(old, room, size);
   if (grown) memcpy(array, &grown, sizeof grown);
+  // cppcheck-suppress memleak ; *array has it
   return grown != NULL;
 }
 

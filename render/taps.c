@@ -1,8 +1,6 @@
 /* taps.c - see taps.h. */
 #include "taps.h"
 
-#include <string.h>
-
 #include "simd.h"
 
 void taps_set_column(struct taps_column *column, const int offset[2], const double weight[4]) {
@@ -85,10 +83,11 @@ SIMD_INLINE void taps_sum_cells_body(const struct taps_cells *cells, int first, 
       weight2 += along * row[2];
       weight3 += along * row[3];
     }
-    simd_double4 weight[4] = {weight0, weight1, weight2, weight3};
-    double spread[4][4];
-    memcpy(spread, weight, sizeof spread); /* scalars again, to be broadcast */
-    add_cell(cells->rows, cells->offset[c], (const double(*)[4])spread, &sum);
+    const union {
+      simd_double4 rows[4];
+      double each[4][4]; /* scalars again, to be broadcast */
+    } weight = {{weight0, weight1, weight2, weight3}};
+    add_cell(cells->rows, cells->offset[c], weight.each, &sum);
   }
   for (int c = 0; c < 3; ++c) rgb[c] += sum[c];
 }

@@ -328,65 +328,81 @@ static void test_all_or_none(void **state) {
   free(built);
 }
 
-/* Half-planes in any direction, a square and a disc: the error of the area is at most the
- * length of the shadow's edge times half a cell, and falls with it. */
+/* An occluder at half height, over an aperture of 2 x 2, and what it leaves of that. */
+struct shadow {
+  double visible, edge; /* area, length of the shadow's edge */
+};
+
+/* Covers x cos + z sin > 0: half of the aperture. */
+static struct shadow add_half_plane(struct built *built, double angle) {
+  double ca = cos(angle), sa = sin(angle);
+  const double x[4][3] = {{-9 * sa, 1, 9 * ca},
+                          {9 * sa, 1, -9 * ca},
+                          {9 * sa + 9 * ca, 1, -9 * ca + 9 * sa},
+                          {-9 * sa + 9 * ca, 1, 9 * ca + 9 * sa}};
+  add_quad(built, x);
+  return (struct shadow){2, 2 * sqrt(2)};
+}
+
+/* Sides of 0.3, so 0.6 on the aperture. */
+static struct shadow add_square(struct built *built, double angle) {
+  double h = 0.15 * sqrt(2), x[4][3];
+  for (int k = 0; k < 4; ++k) {
+    x[k][0] = 0.1 + h * cos(angle + M_PI / 2 * k);
+    x[k][1] = 1;
+    x[k][2] = -0.07 + h * sin(angle + M_PI / 2 * k);
+  }
+  add_quad(built, (const double(*)[3])x);
+  return (struct shadow){4 - 0.36, 2.4};
+}
+
+/* Radius 0.4, so 0.8 on the aperture; 720 corners. */
+static struct shadow add_disc(struct built *built) {
+  for (int k = 0; k < 720; ++k) {
+    const double x[3][3] = {{0, 1, 0},
+                            {0.4 * cos(M_PI / 360 * k), 1, 0.4 * sin(M_PI / 360 * k)},
+                            {0.4 * cos(M_PI / 360 * (k + 1)), 1, 0.4 * sin(M_PI / 360 * (k + 1))}};
+    add_triangle(built, x);
+  }
+  return (struct shadow){4 - 360 * 0.64 * sin(M_PI / 360), 1.6 * M_PI};
+}
+
+static void check_area(const struct occlusion *occlusion, const struct shadow *shadow, int edge,
+                       struct visible *visible) {
+  struct visible_query query = query_over(occlusion, 16, edge);
+  visible->shadow_rays = 0;
+  find(&query, visible);
+  double cell = 2.0 / edge, found = area(&query, visible);
+  assert_near(found, shadow->visible, shadow->edge * cell / 2);
+  /* a few rays for each cell along the edge, and a rectangle for each row of them */
+  double cells = 2 * shadow->edge / cell + 8; /* crossed by the edge */
+  assert_true((double)visible->shadow_rays < 545 + 8 * cells);
+  assert_true(visible->count <= 2 * edge + 2);
+  /* what the shadow hides is what a mirrored aperture's mirrored shadow hides */
+  struct visible_query mirrored = query;
+  for (int c = 0; c < 3; ++c) {
+    mirrored.along[0][c] = -query.along[1][c];
+    mirrored.along[1][c] = query.along[0][c];
+  }
+  find(&mirrored, visible);
+  assert_near(area(&mirrored, visible), found, cell * cell * 4);
+}
+
+/* The error of the area is at most the length of the shadow's edge times half a cell, and
+ * falls with it. */
 static void test_areas(void **state) {
   (void)state;
   struct visible visible = {0};
   for (int shape = 0; shape < 3; ++shape)
     for (int turn = 0; turn < 4; ++turn) {
       struct built *built = build_start(1, 0);
-      double angle = 0.1 + turn, ca = cos(angle), sa = sin(angle), exact = 4, length = 0;
+      double angle = 0.1 + turn;
       add_triangle(built, far_away);
-      if (shape == 0) { /* covers x cos + z sin > 0: half of the aperture */
-        const double x[4][3] = {{-9 * sa, 1, 9 * ca},
-                                {9 * sa, 1, -9 * ca},
-                                {9 * sa + 9 * ca, 1, -9 * ca + 9 * sa},
-                                {-9 * sa + 9 * ca, 1, 9 * ca + 9 * sa}};
-        add_quad(built, x);
-        exact -= 2;
-        length = 2 * sqrt(2);
-      } else if (shape == 1) { /* sides 0.3, so 0.6 on the aperture */
-        double h = 0.15 * sqrt(2), x[4][3];
-        for (int k = 0; k < 4; ++k) {
-          x[k][0] = 0.1 + h * cos(angle + M_PI / 2 * k);
-          x[k][1] = 1;
-          x[k][2] = -0.07 + h * sin(angle + M_PI / 2 * k);
-        }
-        add_quad(built, (const double(*)[3])x);
-        exact -= 0.36;
-        length = 2.4;
-      } else { /* radius 0.4, so 0.8 on the aperture; 720 corners */
-        for (int k = 0; k < 720; ++k) {
-          const double x[3][3] = {
-              {0, 1, 0},
-              {0.4 * cos(M_PI / 360 * k), 1, 0.4 * sin(M_PI / 360 * k)},
-              {0.4 * cos(M_PI / 360 * (k + 1)), 1, 0.4 * sin(M_PI / 360 * (k + 1))}};
-          add_triangle(built, x);
-        }
-        exact -= 360 * 0.64 * sin(M_PI / 360);
-        length = 1.6 * M_PI;
-      }
+      struct shadow shadow = shape == 0   ? add_half_plane(built, angle)
+                             : shape == 1 ? add_square(built, angle)
+                                          : add_disc(built);
       struct occlusion *occlusion = build_finish(built);
-      for (int edge = 16; edge <= 1024; edge *= 4) {
-        struct visible_query query = query_over(occlusion, 16, edge);
-        visible.shadow_rays = 0;
-        find(&query, &visible);
-        double cell = 2.0 / edge, found = area(&query, &visible);
-        assert_near(found, exact, length * cell / 2);
-        /* a few rays for each cell along the edge, and a rectangle for each row of them */
-        double cells = 2 * length / cell + 8; /* crossed by the edge */
-        assert_true((double)visible.shadow_rays < 545 + 8 * cells);
-        assert_true(visible.count <= 2 * edge + 2);
-        /* what the shadow hides is what a mirrored aperture's mirrored shadow hides */
-        struct visible_query mirrored = query;
-        for (int c = 0; c < 3; ++c) {
-          mirrored.along[0][c] = -query.along[1][c];
-          mirrored.along[1][c] = query.along[0][c];
-        }
-        find(&mirrored, &visible);
-        assert_near(area(&mirrored, &visible), found, cell * cell * 4);
-      }
+      for (int edge = 16; edge <= 1024; edge *= 4) check_area(occlusion, &shadow, edge, &visible);
       occlusion_free(occlusion);
       free(built);
     }

@@ -443,7 +443,7 @@ static void test_exr_chunk_sizes(void **state) {
   for (int width = 1; width <= 60; ++width)
     for (int levels = 2; levels < 20; levels += 3) {
       float rgb[3 * 60];
-      struct slab_picture picture = {width, 1, rgb}, got = {0, 0, NULL};
+      struct slab_picture picture = {.width = width, .height = 1, .rgb = rgb}, got = {0};
       struct slab_error error = {{0}};
       for (int k = 0; k < 3 * width; ++k) rgb[k] = (float)floor(levels * random_number(&seed));
       assert_ok(slab_exr_write(path, &picture, 1, "noise", &error), &error);
