@@ -2,7 +2,8 @@
 # demo.sh - the steps of `make demo` that are more than one command.
 #   demo.sh timed FILE COMMAND...        runs a command and writes its CPU seconds to FILE
 #   demo.sh render PICTURE.exr OPTION... renders demo.pov, with a log and the CPU seconds
-#   demo.sh compare FOLDER               canned.exr against full.exr, as text and PNGs
+#   demo.sh compare FOLDER               canned.exr against full.exr and renderslab.exr, as
+#                                        text and PNGs
 set -euo pipefail
 here=$(dirname "$0")
 
@@ -43,7 +44,7 @@ compare() {
   local folder=$1 canned=$1/canned.exr full=$1/full.exr block
   scratch=$(mktemp --suffix=.exr)
   trap 'rm -f "$scratch"' EXIT
-  for picture in canned full; do
+  for picture in canned renderslab full; do
     oiiotool "$folder/$picture.exr" --mulc 2 --powc 0.4545454 -o "$folder/$picture.png"
   done
   oiiotool "$canned" "$full" --absdiff --mulc 2 --powc 0.4545454 -o "$folder/difference.png"
@@ -60,7 +61,11 @@ compare() {
   cat <<TEXT
 Single pixels differ by the noise of the whole lamp's radiosity, which averages out; what
 stays in the means of blocks is the slab's own blur (16 x 16 positions on the aperture).
-Look at $folder/canned.png, $folder/full.png and $folder/difference.png
+
+The canned lamp in POV-Ray and in renderslab, which sums over the whole aperture rather than
+over 16 x 16 lights: $(difference 1 "$canned" "$folder/renderslab.exr") RMS by pixel; renderslab took $(cat "$folder/renderslab.seconds") CPU seconds.
+
+Look at $folder/canned.png, renderslab.png, full.png and difference.png
 TEXT
 }
 

@@ -1,5 +1,5 @@
 # What POV-Ray reads is installed as it is. The demo: the paper's lamp from script
-# to slab to include to a picture, beside the picture that the whole lamp gives.
+# to slab to include to a picture, beside those that renderslab and the whole lamp give.
 POV_FILES := $(sort $(filter-out %/flat.mk,$(shell find include-pov -type f)))
 
 DEMO := build/demo
@@ -18,10 +18,15 @@ $(DEMO)/canned.exr: $(DEMO)/parabolic.inc $(DEMO_READS)
 	@echo 'Rendering the scene with the canned lamp'
 	@include-pov/demo.sh render $@ +L$(DEMO)
 
+$(DEMO)/renderslab.exr: $(DEMO)/parabolic.tif render/scenes/demo.obj render/scenes/demo.mtl include-pov/demo.sh $(RENDER_BIN)
+	@echo 'Rendering it with renderslab'
+	@include-pov/demo.sh timed $(@:.exr=.seconds) $(RENDER_BIN) image render/scenes/demo.obj --light $< \
+	  --camera 'from=-30,-8,-150 at=0,-60,-10 fov=58' --size 320x160 -o $@
+
 $(DEMO)/full.exr: lamps/parabolic.pov include-pov/canned.inc $(DEMO_READS) | $(DEMO)/canned.exr
 	@echo 'Rendering it with the whole lamp and its interreflection (a minute or two)'
 	@include-pov/demo.sh render $@ +Llamps +Linclude-pov Declare=Full_Lamp=1
 
 .PHONY: demo
-demo: $(DEMO)/canned.exr $(DEMO)/full.exr ## bake the paper's lamp, light a scene with it, compare with the full lamp
+demo: $(DEMO)/canned.exr $(DEMO)/renderslab.exr $(DEMO)/full.exr ## bake the paper's lamp, light a scene with it, compare with the full lamp
 	@include-pov/demo.sh compare $(DEMO)
