@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "slab_gauss.h"
@@ -65,16 +66,18 @@ void rule_hats(const struct strip *strip, double at, double weight[4]) {
   weight[3] = near * far;
 }
 
-/* Exact means over the strip: that of a product of linear functions is the product of their
- * means plus the product of their rises over 12. */
-static void mean_hats(const struct strip *strip, double weight[4]) {
-  rule_hats(strip, (strip->low + strip->high) / 2, weight);
-  double rises = (strip->near_weight[1] - strip->near_weight[0]) *
-                 (strip->far_weight[1] - strip->far_weight[0]) / 12;
-  weight[0] += rises;
-  weight[1] -= rises;
-  weight[2] -= rises;
-  weight[3] += rises;
+/* In the middle; or the exact means over the strip: that of a product of linear functions is
+ * the product of their means plus the product of their rises over 12. */
+static void middle_hats(const struct strip *strip, bool means, double weight[4]) {
+  double near = (strip->near_weight[0] + strip->near_weight[1]) / 2;
+  double far = (strip->far_weight[0] + strip->far_weight[1]) / 2;
+  double rises = means ? (strip->near_weight[1] - strip->near_weight[0]) *
+                             (strip->far_weight[1] - strip->far_weight[0]) / 12
+                       : 0;
+  weight[0] = (1 - near) * (1 - far) + rises;
+  weight[1] = (1 - near) * far - rises;
+  weight[2] = near * (1 - far) - rises;
+  weight[3] = near * far + rises;
 }
 
 static enum slab_result make_room(struct rule_nodes *nodes, int more, struct slab_error *error) {
@@ -97,25 +100,38 @@ static enum slab_result make_room(struct rule_nodes *nodes, int more, struct sla
   return SLAB_OK;
 }
 
-/* Appends a strip with a rule of `order` nodes; order 0 is RULE_PI. */
-static enum slab_result place(struct rule_nodes *nodes, const struct strip *strip, int order,
-                              struct slab_error *error) {
-  enum slab_result result = make_room(nodes, order > 0 ? order : 1, error);
+/* Appends a strip, and makes room for its nodes. */
+static enum slab_result append(struct rule_nodes *nodes, const struct strip *strip, int count,
+                               struct slab_error *error) {
+  enum slab_result result = make_room(nodes, count, error);
   if (result == SLAB_OK) result = strips_append(&nodes->strips, strip, error);
+  if (result == SLAB_OK) nodes->first[nodes->strips.count] = nodes->count + count;
+  return result;
+}
+
+static enum slab_result place_single(struct rule_nodes *nodes, const struct strip *strip,
+                                     bool means, struct slab_error *error) {
+  enum slab_result result = append(nodes, strip, 1, error);
   if (result != SLAB_OK) return result;
-  const struct rule_gauss *points = rule_gauss(order > 0 ? order : 1);
+  double *weight = nodes->weight[nodes->count], width = strip->high - strip->low;
+  nodes->at[nodes->count++] = strip->low + width / 2;
+  middle_hats(strip, means, weight);
+  for (int tap = 0; tap < 4; ++tap) weight[tap] *= width;
+  return SLAB_OK;
+}
+
+static enum slab_result place_order(struct rule_nodes *nodes, const struct strip *strip, int order,
+                                    struct slab_error *error) {
+  enum slab_result result = append(nodes, strip, order, error);
+  if (result != SLAB_OK) return result;
+  const struct rule_gauss *points = rule_gauss(order);
   double width = strip->high - strip->low;
-  int n = nodes->count;
-  for (int k = 0; k < (order > 0 ? order : 1); ++k, ++n) {
-    nodes->at[n] = strip->low + points->at[k] * width;
-    if (order > 0)
-      rule_hats(strip, nodes->at[n], nodes->weight[n]);
-    else
-      mean_hats(strip, nodes->weight[n]);
-    for (int tap = 0; tap < 4; ++tap) nodes->weight[n][tap] *= points->weight[k] * width;
+  for (int k = 0; k < order; ++k, ++nodes->count) {
+    double *weight = nodes->weight[nodes->count];
+    nodes->at[nodes->count] = strip->low + points->at[k] * width;
+    rule_hats(strip, nodes->at[nodes->count], weight);
+    for (int tap = 0; tap < 4; ++tap) weight[tap] *= points->weight[k] * width;
   }
-  nodes->count = n;
-  nodes->first[nodes->strips.count] = n;
   return SLAB_OK;
 }
 
@@ -138,7 +154,7 @@ static enum slab_result place_gauss(struct rule_nodes *nodes, const struct strip
   /* Too narrow to cut: as good as it gets. */
   if (order > RULE_LARGEST_ORDER && !(middle > strip->low && middle < strip->high))
     order = RULE_LARGEST_ORDER;
-  if (order <= RULE_LARGEST_ORDER) return place(nodes, strip, order, error);
+  if (order <= RULE_LARGEST_ORDER) return place_order(nodes, strip, order, error);
   struct strip left = strip_part(strip, strip->low, middle);
   struct strip right = strip_part(strip, middle, strip->high);
   enum slab_result result = place_gauss(nodes, &left, orders, pole, error);
@@ -156,7 +172,7 @@ enum slab_result rule_place(const struct strips *strips, enum rule rule,
     if (rule == RULE_GAUSS)
       result = place_gauss(nodes, strip, orders, pole, error);
     else
-      result = place(nodes, strip, rule == RULE_MIDPOINT ? 1 : 0, error);
+      result = place_single(nodes, strip, rule == RULE_PI, error);
   }
   return result;
 }

@@ -24,6 +24,15 @@ enum slab_result strips_append(struct strips *strips, const struct strip *strip,
   return SLAB_OK;
 }
 
+/* Inline, where fmin and fmax are calls; there are no NaNs here. */
+static inline double lesser(double a, double b) {
+  return a < b ? a : b;
+}
+
+static inline double greater(double a, double b) {
+  return a > b ? a : b;
+}
+
 /* An axis as one receiver sees it. */
 struct sight {
   const struct light_axis *axis;
@@ -108,6 +117,10 @@ static bool far_range(const struct sight *sight, double *low, double *high, int 
   return true;
 }
 
+static double near_slope_or_end(const struct sight *sight, int line) {
+  return line < sight->axis->near_count ? near_slope(sight, line) : INFINITY;
+}
+
 enum slab_result strips_find(const struct light_axis *axis, double q, double z,
                              struct strips *strips, struct slab_error *error) {
   const struct sight sight = make_sight(axis, q, z);
@@ -115,16 +128,15 @@ enum slab_result strips_find(const struct light_axis *axis, double q, double z,
   int far, near = 0;
   strips->count = 0;
   if (!far_range(&sight, &far_low, &far_high, &far)) return SLAB_OK;
-  double low = fmax(near_slope(&sight, -1), far_low);
-  double high = fmin(near_slope(&sight, axis->near_count), far_high);
+  double low = greater(near_slope(&sight, -1), far_low);
+  double high = lesser(near_slope(&sight, axis->near_count), far_high);
   /* Ascending: the piece ends at line `far`; descending: at the line before. */
   int ascending = sight.rate > 0, step = ascending ? 1 : -1;
   int last = ascending ? axis->far_count : 0;
+  double near_end = near_slope_or_end(&sight, near);
+  double far_end = sight.rate != 0 && far != last ? far_slope(&sight, far - !ascending) : INFINITY;
   while (low < high) {
-    double near_end = near < axis->near_count ? near_slope(&sight, near) : INFINITY;
-    double far_end =
-        sight.rate != 0 && far != last ? far_slope(&sight, far - !ascending) : INFINITY;
-    double end = fmin(fmin(near_end, far_end), high);
+    double end = lesser(lesser(near_end, far_end), high);
     if (end > low) {
       struct strip strip = {.low = low, .high = end};
       set_near(&strip.taps, near, axis->near_count);
@@ -139,8 +151,11 @@ enum slab_result strips_find(const struct light_axis *axis, double q, double z,
       low = end;
     }
     if (end >= high) break;
-    if (near_end <= end) ++near;
-    if (far_end <= end) far += step;
+    if (near_end <= end) near_end = near_slope_or_end(&sight, ++near);
+    if (far_end <= end) {
+      far += step;
+      far_end = far != last ? far_slope(&sight, far - !ascending) : INFINITY;
+    }
   }
   return SLAB_OK;
 }

@@ -18,16 +18,18 @@ SIMD_INLINE void taps_sum_row_body(const float *const rows[4], const double row_
   const float *const row2 = rows[2], *const row3 = rows[3];
   const float w0 = (float)row_weight[0], w1 = (float)row_weight[1];
   const float w2 = (float)row_weight[2], w3 = (float)row_weight[3];
-  simd_float8 sum = {0};
+  simd_float8 sum = {0}, far = {0};
+  int seen = -1; /* whose mix of rows `far` is: often the next column's near one */
   for (int c = 0; c < count; ++c) {
     const struct taps_column *column = &columns[c];
     const int a = column->offset[0], b = column->offset[1];
-    simd_float8 near =
-        SIMD_LOAD(simd_floats8, row0 + a) * w0 + SIMD_LOAD(simd_floats8, row1 + a) * w1 +
-        (SIMD_LOAD(simd_floats8, row2 + a) * w2 + SIMD_LOAD(simd_floats8, row3 + a) * w3);
-    simd_float8 far =
-        SIMD_LOAD(simd_floats8, row0 + b) * w0 + SIMD_LOAD(simd_floats8, row1 + b) * w1 +
-        (SIMD_LOAD(simd_floats8, row2 + b) * w2 + SIMD_LOAD(simd_floats8, row3 + b) * w3);
+    simd_float8 near = far;
+    if (a != seen)
+      near = SIMD_LOAD(simd_floats8, row0 + a) * w0 + SIMD_LOAD(simd_floats8, row1 + a) * w1 +
+             (SIMD_LOAD(simd_floats8, row2 + a) * w2 + SIMD_LOAD(simd_floats8, row3 + a) * w3);
+    far = SIMD_LOAD(simd_floats8, row0 + b) * w0 + SIMD_LOAD(simd_floats8, row1 + b) * w1 +
+          (SIMD_LOAD(simd_floats8, row2 + b) * w2 + SIMD_LOAD(simd_floats8, row3 + b) * w3);
+    seen = b;
     sum += (near * SIMD_LOAD(simd_floats8, column->weight[0]) +
             far * SIMD_LOAD(simd_floats8, column->weight[1])) *
            factor[c];
