@@ -35,9 +35,6 @@ static int64_t write_bytes(exr_const_context_t context, void *data, const void *
   return -1;
 }
 
-/* Channels in the alphabetical order that the format asks for, those of a layer last. */
-static const char *const channel_names[] = {"B", "G", "R", "error.B", "error.G", "error.R"};
-
 static exr_result_t define_part(struct writer *writer, int index, const char *text_name) {
   const struct slab_raster *raster = &writer->parts[index];
   bool tiled = raster->block_width > 0;
@@ -45,7 +42,10 @@ static exr_result_t define_part(struct writer *writer, int index, const char *te
       raster->precision == SLAB_PRECISION_HALF ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
   char name[32];
   int part;
-  snprintf(name, sizeof name, "page%d", index + 1);
+  if (raster->layer)
+    snprintf(name, sizeof name, "%s", raster->layer);
+  else
+    snprintf(name, sizeof name, "page%d", index + 1);
   exr_result_t code =
       exr_add_part(writer->context, name, tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part);
   if (code == EXR_ERR_SUCCESS)
@@ -55,9 +55,13 @@ static exr_result_t define_part(struct writer *writer, int index, const char *te
     code = exr_set_tile_descriptor(writer->context, part, (uint32_t)raster->block_width,
                                    (uint32_t)raster->block_height, EXR_TILE_ONE_LEVEL,
                                    EXR_TILE_ROUND_DOWN);
-  for (int k = 0; k < (raster->error ? 6 : 3) && code == EXR_ERR_SUCCESS; ++k)
-    code = exr_add_channel(writer->context, part, channel_names[k], type,
-                           EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+  for (const char *colour = "BGR"; *colour && code == EXR_ERR_SUCCESS; ++colour) {
+    char channel[64];
+    snprintf(channel, sizeof channel, "%s%s%c", raster->layer ? raster->layer : "",
+             raster->layer ? "." : "", *colour);
+    code =
+        exr_add_channel(writer->context, part, channel, type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+  }
   if (code == EXR_ERR_SUCCESS && raster->text)
     code = exr_attr_set_string(writer->context, part, text_name, raster->text);
   return code;
@@ -78,8 +82,7 @@ static exr_result_t write_shorter(exr_encode_pipeline_t *pipeline) {
 static exr_result_t write_block(struct writer *writer, int part, const exr_chunk_info_t *chunk,
                                 int x, int y, uint16_t *halves) {
   const struct slab_raster *raster = &writer->parts[part];
-  const size_t first = 3 * ((size_t)y * (size_t)raster->width + (size_t)x);
-  const float *from = raster->rgb + first;
+  const float *from = raster->rgb + 3 * ((size_t)y * (size_t)raster->width + (size_t)x);
   const uint8_t *base = (const uint8_t *)from;
   int element = sizeof(float), row_pixels = raster->width;
   if (raster->precision == SLAB_PRECISION_HALF) {
@@ -95,11 +98,9 @@ static exr_result_t write_block(struct writer *writer, int part, const exr_chunk
   exr_result_t code = exr_encoding_initialize(writer->context, part, chunk, &pipeline);
   for (int k = 0; code == EXR_ERR_SUCCESS && k < pipeline.channel_count; ++k) {
     exr_coding_channel_info_t *channel = &pipeline.channels[k];
-    const char *name = channel->channel_name, *colour = strrchr(name, '.');
-    colour = colour ? colour + 1 : name;
-    int place = *colour == 'R' ? 0 : *colour == 'G' ? 1 : 2;
-    const uint8_t *pixels = colour == name ? base : (const uint8_t *)(raster->error + first);
-    channel->encode_from_ptr = pixels + place * element;
+    char colour = channel->channel_name[strlen(channel->channel_name) - 1];
+    int place = colour == 'R' ? 0 : colour == 'G' ? 1 : 2;
+    channel->encode_from_ptr = base + place * element;
     channel->user_bytes_per_element = (int16_t)element;
     channel->user_data_type = channel->data_type;
     channel->user_pixel_stride = 3 * element;
@@ -186,15 +187,19 @@ enum slab_result slab_exr_write(const char *path, const struct slab_picture *pic
   if (result != SLAB_OK) return result;
   char *text = comment ? strdup(comment) : NULL;
   if (comment && !text) return slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
-  struct slab_raster raster = {.width = picture->width,
-                               .height = picture->height,
-                               .precision = half ? SLAB_PRECISION_HALF : SLAB_PRECISION_FLOAT,
-                               .text = text,
-                               .rgb = picture->rgb,
-                               .error = half ? NULL : picture->error};
+  struct slab_raster parts[2] = {{.width = picture->width,
+                                  .height = picture->height,
+                                  .precision = half ? SLAB_PRECISION_HALF : SLAB_PRECISION_FLOAT,
+                                  .text = text,
+                                  .rgb = picture->rgb}};
+  parts[1] = parts[0];
+  parts[1].layer = "error";
+  parts[1].rgb = picture->error;
   struct slab_output output = {0};
   result = slab_output_begin(&output, path, error);
-  if (result == SLAB_OK) result = slab_exr_write_parts(&output, &raster, 1, "comments", error);
+  if (result == SLAB_OK)
+    result =
+        slab_exr_write_parts(&output, parts, picture->error && !half ? 2 : 1, "comments", error);
   if (result == SLAB_OK) result = slab_output_commit(&output, error);
   slab_output_abandon(&output);
   free(text);

@@ -13,7 +13,8 @@ struct slab_raster {
   double white[3];               /* LogLuv: factors on XYZ before encoding */
   char *text;                    /* the page's JSON, or NULL */
   const float *rgb;              /* width * height interleaved pixels, when writing */
-  const float *error;            /* the same, EXR only: the layer `error`; NULL: none */
+  const char *layer;             /* EXR, when writing: name of the part and of its channels, as in
+                                    error.R; NULL: pageN, and R, G, B */
 };
 
 /* Pixels of a block, as read_block functions deliver it: rows of block_width

@@ -32,12 +32,13 @@ mean() {
   oiiotool "$@" --printstats -o "$scratch" | awk '/Stats Avg/ { print $4 }'
 }
 
-# Relative RMS difference of two pictures, after averaging blocks of the given size.
+# Relative RMS difference of two pictures, after averaging blocks of the given size. Statistics
+# are printed with six decimals: a thousandfold difference keeps its digits.
 difference() {
   local size="$((320 / $1))x$((160 / $1))"
   local square
-  square=$(mean "$2" --resize:filter=box "$size" "$3" --resize:filter=box "$size" --sub --dup --mul)
-  awk -v square="$square" -v mean="$(mean "$3")" 'BEGIN { printf "%.1f %%", 100*sqrt(square)/mean }'
+  square=$(mean "$2" --resize:filter=box "$size" "$3" --resize:filter=box "$size" --sub --mulc 1000 --dup --mul)
+  awk -v square="$square" -v mean="$(mean "$3")" 'BEGIN { printf "%.1f %%", 0.1*sqrt(square)/mean }'
 }
 
 compare() {

@@ -36,7 +36,7 @@ struct image_report {
   bool late;                              /* the first pass alone took longer than allowed */
 };
 
-/* Allocates and fills the picture and its layer of errors; slab_picture_free frees it.
+/* Allocates and fills the picture and its errors; slab_picture_free frees it.
  *
  * With a time to end, the whole picture is first made with a tolerance of 0.3, then tile by
  * tile, those with the largest errors first, with a tenth of that, and so on until the time

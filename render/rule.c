@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "simd.h"
 #include "slab_gauss.h"
 
 static struct rule_gauss gauss[RULE_LARGEST_ORDER + 1];
@@ -83,7 +84,7 @@ static void middle_hats(const struct strip *strip, bool means, double weight[4])
 static enum slab_result make_room(struct rule_nodes *nodes, int more, struct slab_error *error) {
   if (nodes->count + more > nodes->room) {
     int room = 2 * nodes->room + more + 256;
-    double *at = realloc(nodes->at, (size_t)room * sizeof *at);
+    double *at = realloc(nodes->at, (size_t)(room + SIMD_LANES) * sizeof *at);
     if (at) nodes->at = at;
     double(*weight)[4] = realloc(nodes->weight, (size_t)room * sizeof *weight);
     if (weight) nodes->weight = weight;

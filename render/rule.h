@@ -36,7 +36,7 @@ struct rule_nodes {
   struct strips strips;
   int *first;
   int count, room;
-  double *at;          /* slopes */
+  double *at;          /* slopes; SIMD_LANES more may be read */
   double (*weight)[4]; /* of the samples */
   int first_room;
 };
