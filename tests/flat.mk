@@ -45,8 +45,8 @@ bench: $(BAKE_BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(DEMO)/canned.exr $(DEMO)/full.e
 lint: $(B)/flags ## check formatting, static analysis and house rules
 	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh
 
-sanitize: ## run unit and command-line tests with address and undefined behaviour sanitizers
-	+@$(MAKE) --no-print-directory config=sanitize T='unit/% cli/%' test
+sanitize: ## run unit, command-line and renderer tests with address and undefined behaviour sanitizers
+	+@$(MAKE) --no-print-directory config=sanitize T='unit/% cli/% render/test_%' test
 
 $(TEST_SOURCES:%.c=$(B)/%.o) $(TEST_HELPERS:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests $(RENDER_CFLAGS)
 # The machine's rate of multiply-adds is that of fused ones.
