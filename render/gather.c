@@ -19,6 +19,7 @@ enum { TOGETHER = 64 };
 /* The order rule bounds a micro light's error by its own light. Sums of samples of both signs
  * can be smaller than their parts, and users compare digits: the reference aims lower. */
 static const double reference_margin = 1e-3;
+static const double least_tolerance = 1e-14; /* rounding is larger */
 
 struct gather {
   const struct gather_settings *settings;

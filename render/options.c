@@ -23,6 +23,8 @@ enum {
   OPTION_SHADOW_EDGE
 };
 
+static const double least_tolerance = 1e-12;
+
 enum { MOST_THREADS = 1024, MOST_LEVEL = 30, MOST_SHADOW_GRID = 256, MOST_SHADOW_EDGE = 65536 };
 
 bool options_number(const char *text, double *number) {
@@ -117,8 +119,10 @@ static error_t parse_sum(int key, char *value, struct argp_state *state) {
     parse_method(value, options, state);
     return 0;
   case OPTION_TOLERANCE:
-    if (!options_number(value, &options->tolerance) || !(options->tolerance > 0))
-      argp_error(state, "--tolerance %s: must be a number above 0", value);
+    if (!options_number(value, &options->tolerance) || !(options->tolerance >= least_tolerance))
+      argp_error(state,
+                 "--tolerance %s: must be a number from %g on: double precision gives no less",
+                 value, least_tolerance);
     return 0;
   case OPTION_LEVEL:
     if (!options_count(value, 0, MOST_LEVEL, &level))
