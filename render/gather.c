@@ -65,8 +65,8 @@ enum slab_result gather_create(const struct gather_settings *settings, struct ga
   struct gather *made = calloc(1, sizeof *made);
   if (!made) return slab_fail(error, SLAB_MEMORY, "out of memory");
   made->settings = settings;
-  made->orders = rule_orders(settings->tolerance *
-                             (settings->method == GATHER_REFERENCE ? reference_margin : 1));
+  double margin = settings->method == GATHER_REFERENCE ? reference_margin : 1;
+  made->orders = rule_orders(fmax(settings->tolerance * margin, least_tolerance));
   *gather = made;
   return SLAB_OK;
 }
