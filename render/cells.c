@@ -58,8 +58,8 @@ enum slab_result cells_prepare(struct cells *cells, const struct view *view,
     low[axis] = along->strip[0].low;
     high[axis] = along->strip[along->count - 1].high;
     cells->unit[axis] = kind == CELLS_GAUSS ? 1 : reach(along);
-    result =
-        rule_place(along, rule, orders, rule_pole(&strips[1 - axis]), &cells->nodes[axis], error);
+    double pole = fmin(rule_pole(&strips[1 - axis]), kernel_pole(&view->kernel));
+    result = rule_place(along, rule, orders, pole, &cells->nodes[axis], error);
   }
   if (result == SLAB_OK) result = reserve_columns(cells, error);
   if (result != SLAB_OK) return result;

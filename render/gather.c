@@ -135,25 +135,26 @@ static enum slab_result take_sums(struct gather *gather, double gain, struct gat
  * h the kernel's curvature changes the mean by at most 5/3 h^2, and its slope, together with
  * the radiance's, by about h/2 times the change of radiance over the strip; of the latter a
  * sum over n strips keeps the share 1/sqrt(n) (rough samples in rows: the worst that was
- * met). */
-static double pi_error(const struct strips strips[2]) {
+ * met). A highlight is about exp(-m x^2/8) for the exponent m: it adds its own curvature and
+ * slope. */
+static double pi_error(const struct strips strips[2], double shininess) {
   double widest = 0;
   int fewest = strips[0].count < strips[1].count ? strips[0].count : strips[1].count;
   for (int axis = 0; axis < 2; ++axis)
     for (int k = 0; k < strips[axis].count; ++k)
       widest = fmax(widest, strips[axis].strip[k].high - strips[axis].strip[k].low);
-  double half = widest / 2;
-  return 5.0 / 3 * half * half + half / 2 / sqrt(fewest);
+  double half = widest / 2, curvature = 5.0 / 3 + shininess / 24, slope = 1 + sqrt(shininess) / 2;
+  return curvature * half * half + slope * half / 2 / sqrt(fewest);
 }
 
 /* The method for this receiver and page, and its predicted relative error. */
-static enum gather_method choose(const struct gather *gather, const struct strips strips[2],
-                                 double *error) {
+static enum gather_method choose(const struct gather *gather, const struct look *look,
+                                 const struct strips strips[2], double *error) {
   enum gather_method method = gather->settings->method;
   *error = gather->settings->tolerance;
   bool cheapest = method == GATHER_AUTO || method == GATHER_LEVELS;
   if (cheapest || method == GATHER_PI || method == GATHER_MIDPOINT) {
-    double single = pi_error(strips);
+    double single = pi_error(strips, look->receiver->shininess);
     if (cheapest) method = single <= *error ? GATHER_PI : GATHER_REFERENCE;
     if (method != GATHER_REFERENCE) *error = single;
   }
@@ -272,7 +273,7 @@ static enum slab_result take_look(struct gather *gather, const struct look *look
     return SLAB_OK;
   }
   double predicted;
-  enum gather_method method = choose(gather, gather->whole, &predicted);
+  enum gather_method method = choose(gather, look, gather->whole, &predicted);
   gathered[look->index].error = fmax(gathered[look->index].error, predicted);
   gather->counts.error = fmax(gather->counts.error, predicted);
   if (!gather->settings->occlusion)

@@ -17,6 +17,10 @@ void kernel_heights(const struct kernel *kernel, const double low[2], const doub
   range[1] = n[0] * (n[0] > 0 ? high[0] : low[0]) + n[1] * (n[1] > 0 ? high[1] : low[1]) - n[2];
 }
 
+double kernel_pole(const struct kernel *kernel) {
+  return kernel->shininess > 0 ? 6 / sqrt(kernel->shininess) : INFINITY;
+}
+
 SIMD_INLINE void kernel_matte_body(const struct kernel *kernel, const double *x, double y,
                                    int count, double *out) {
   const double along = kernel->normal[0], rest = kernel->normal[1] * y - kernel->normal[2];

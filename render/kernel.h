@@ -23,6 +23,10 @@ double kernel_height(const struct kernel *kernel, double x, double y);
 void kernel_heights(const struct kernel *kernel, const double low[2], const double high[2],
                     double range[2]);
 
+/* A highlight is about exp(-m x^2/8) for the exponent m. It has no poles, but Gauss rules need
+ * as many nodes for it as for a function with poles at this distance; INFINITY for matte. */
+double kernel_pole(const struct kernel *kernel);
+
 /* Irradiance kernel at (x[k], y); not clamped at the tangent plane. `x` and `out` have room
  * for a multiple of SIMD_LANES. */
 void kernel_matte(const struct kernel *kernel, const double *x, double y, int count, double *out);
