@@ -26,6 +26,7 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   case OPTION_SIZE:
     if (!cli_parse_size(value, options->size))
       argp_error(state, "--size %s: must be WxH, each from 1 to %d", value, IMAGE_MOST_SIZE);
+    options->size_given = true;
     return 0;
   case OPTION_BACKGROUND:
     if (!options_numbers(value, 3, options->background))

@@ -13,6 +13,7 @@ struct view_options {
   bool camera_given;
   struct camera camera;
   int size[2];          /* 640 x 480 */
+  bool size_given;
   double background[3]; /* black */
 };
 

@@ -1,0 +1,129 @@
+#!/usr/bin/env bats
+# renderslab tradeoff: what the table says, and what is refused. Never how long anything took.
+bats_require_minimum_version 1.5.0
+
+setup_file() {
+  cd "$BATS_FILE_TMPDIR" || return
+  load render
+  letter_lamp
+}
+
+setup() {
+  load render
+  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return
+  cp "$BATS_FILE_TMPDIR"/letter_f.tif "$BATS_TEST_DIRNAME"/scenes/* .
+}
+
+# tradeoff OPTION...: the floor and what stands on it, lit from above.
+tradeoff() {
+  "$RENDERSLAB" tradeoff occluder.obj --light 'letter_f.tif at=0,1,0' --size 24x18 --repeats 1 \
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' "$@"
+}
+
+# column FILE NAME [AWK CONDITION ON f["NAME"]]: the numbers of the rows that meet it.
+column() {
+  awk -F'\t' -v name="$2" "/^#/ { next } !n { n = NF; for (k = 1; k <= NF; ++k) at[k] = \$k; next }
+    { for (k = 1; k <= NF; ++k) f[at[k]] = \$k } ${3:-1} { print f[name] }" "$1"
+}
+
+@test "the table: a head, columns, a row for each method and setting" {
+  tradeoff -o t.tsv
+  grep -qF '# command: renderslab tradeoff occluder.obj ' t.tsv
+  grep -q '^# picture: 24x18, of which [1-9][0-9]* pixels gather light$' t.tsv
+  [ "$(grep -v '^#' t.tsv | head -n 1 | tr '\t' ' ')" = "method tolerance level shadows cpu cpu_low cpu_high wall wall_low wall_high rms max sum_rms sum_max predicted microlights nodes shadow_rays aids_bytes aids_cpu" ]
+  # As many fields in each row, numbers or -.
+  grep -v '^#' t.tsv | awk -F'\t' 'NF != 20 { exit 1 }
+    NR > 1 { for (k = 2; k <= NF; ++k) if ($k !~ /^(-|auto|[0-9]+\/[0-9]+|[0-9.]+(e[-+][0-9]+)?)$/) exit 1 }'
+  # Each method that --method knows, but closed, which has no shadows.
+  run --separate-stderr tradeoff -o - --methods nonsense
+  for method in $("$RENDERSLAB" image x --method '?' 2>&1 | sed 's/.*there are //; s/,//g'); do
+    [ "$method" = closed ] || grep -q "^$method	" t.tsv || { echo "no $method"; return 1; }
+  done
+  run ! grep -q '^closed' t.tsv
+  # Columns that machines agree on come out again.
+  tradeoff -o again.tsv --threads 1
+  for name in rms max sum_rms sum_max predicted microlights nodes shadow_rays; do
+    [ "$(column t.tsv $name)" = "$(column again.tsv $name)" ] || { echo "$name differs"; return 1; }
+  done
+}
+
+@test "errors: the reference has none, and they fall with the tolerance and the level" {
+  tradeoff -o t.tsv --no-shadows --finest 1e-3
+  below "$(column t.tsv sum_max 'f["method"] == "reference"' | sort -g | tail -n 1)" 1e-6
+  column t.tsv max 'f["method"] == "closed"' | awk '{ exit !($1 < 1e-6) }'
+  for method in auto reference; do
+    column t.tsv rms "f[\"method\"] == \"$method\"" | awk 'NR > 1 && $1 > last*1.001 + 1e-12 { exit 1 } { last = $1 }'
+  done
+  paste <(column t.tsv sum_rms 'f["method"] == "auto"') <(column t.tsv tolerance 'f["method"] == "auto"') |
+    awk '!($1 <= $2) { print "more than the tolerance:", $0; exit 1 }'
+  column t.tsv rms 'f["method"] == "levels" && f["level"] != "auto"' | awk 'NR > 1 && $1 < last { exit 1 } { last = $1 }'
+  [ -z "$(column t.tsv shadow_rays 'f["shadow_rays"] != 0')" ]
+  column t.tsv aids_bytes 'f["method"] == "levels"' | awk '{ exit !($1 >= 0) }'
+}
+
+@test "shadows: finer edges leave less error" {
+  tradeoff -o t.tsv --methods auto
+  column t.tsv rms 'f["sum_rms"] == "-"' >errors
+  [ "$(wc -l <errors)" -ge 5 ]
+  awk 'NR == 1 { first = $1 } END { exit !($1 < first/4) }' errors
+}
+
+@test "chosen methods only; standard output" {
+  tradeoff -o - --methods pi,views >t.tsv
+  [ "$(column t.tsv method | tr '\n' ' ')" = "pi views " ]
+}
+
+@test "a plot, SVG or PNG" {
+  command -v gnuplot >/dev/null || skip "no gnuplot"
+  cp occluder.obj "it's.obj"
+  "$RENDERSLAB" tradeoff "it's.obj" --light 'letter_f.tif at=0,1,0' --size 16x12 --repeats 1 \
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' --finest 0.01 -o t.tsv --plot t.svg
+  head -c 300 t.svg | grep -q '<svg'
+  grep -qF "it's.obj" t.svg || grep -qF 'it&apos;s.obj' t.svg
+  tradeoff -o t.tsv --plot t.png --methods reference --no-shadows --finest 0.1
+  [ "$(head -c 4 t.png | tail -c 3)" = PNG ]
+}
+
+# refuses PIECE OPTION...: one line, and nothing is left.
+refuses() {
+  local piece=$1
+  shift
+  run --separate-stderr env "PATH=${SEARCH:-$PATH}" "$RENDERSLAB" tradeoff "$@"
+  refused "$piece" || return 1
+  [ "$(ls)" = "$before" ] || { echo "left behind: $(ls)"; return 1; }
+}
+
+@test "bad input" {
+  view=(--camera 'from=0.3,2,-2.2 at=0,0,0.1')
+  good=(occluder.obj --light 'letter_f.tif at=0,1,0' "${view[@]}" --size 16x12 --repeats 1)
+  mkdir folder
+  before=$(ls)
+  refuses 'add -o' "${good[@]}"
+  refuses 'no mesh' "${good[@]:1}" -o t.tsv
+  refuses 'no camera' occluder.obj --light letter_f.tif -o t.tsv
+  refuses 'no light' occluder.obj "${view[@]}" -o t.tsv
+  refuses nothere.obj nothere.obj "${good[@]:1}" -o t.tsv
+  refuses nothere.tif occluder.obj "${view[@]}" --light nothere.tif -o t.tsv
+  for value in 0 -1 nan inf 1e-13 0.2 x ''; do refuses finest "${good[@]}" -o t.tsv "--finest=$value"; done
+  for value in 0 100 1.5 x ''; do refuses repeats "${good[@]}" -o t.tsv "--repeats=$value"; done
+  refuses threads "${good[@]}" -o t.tsv --threads 0
+  refuses size "${good[@]}" -o t.tsv --size 0x3
+  for value in nonsense '' 'pi,,' pi,best; do refuses 'there is no method' "${good[@]}" -o t.tsv "--methods=$value"; done
+  refuses folder "${good[@]}" -o folder
+  refuses nowhere "${good[@]}" -o nowhere/t.tsv
+  refuses occluder.obj "${good[@]}" -o occluder.obj
+  refuses letter_f.tif "${good[@]}" -o letter_f.tif
+  refuses t.svg "${good[@]}" -o t.svg --plot t.svg
+  refuses '.svg or .png' "${good[@]}" -o t.tsv --plot t.jpg
+  refuses '.svg or .png' "${good[@]}" -o t.tsv --plot .svg
+  # Lamps below the floor light nothing.
+  refuses 'no light reaches' occluder.obj --light 'letter_f.tif at=0,-1,0' "${view[@]}" --size 16x12 -o t.tsv
+  # Nothing but closed, which cannot do shadows.
+  refuses 'no method' "${good[@]}" -o t.tsv --methods closed
+}
+
+@test "without gnuplot there is one line, before the work" {
+  before=$(ls)
+  SEARCH=$PWD/nowhere refuses gnuplot occluder.obj --light 'letter_f.tif at=0,1,0' --size 16x12 \
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1' -o t.tsv --plot t.svg
+}
