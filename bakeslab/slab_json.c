@@ -270,6 +270,33 @@ char *slab_json_get_string(const struct slab *slab, const char *key, const char 
   return copy;
 }
 
+double slab_json_get_number(const struct slab *slab, const char *key, const char *inner,
+                            const char *innermost) {
+  json_t *root = NULL;
+  if (load_object(slab, &root, NULL) != SLAB_OK) return NAN;
+  const json_t *number =
+      json_object_get(json_object_get(json_object_get(root, key), inner), innermost);
+  double value = json_is_number(number) ? json_number_value(number) : NAN;
+  json_decref(root);
+  return value;
+}
+
+enum slab_result slab_json_set_string(struct slab *slab, const char *key, const char *inner,
+                                      const char *value, struct slab_error *error) {
+  json_t *root = NULL;
+  enum slab_result result = load_object(slab, &root, error);
+  if (result != SLAB_OK) return result;
+  json_t *old = json_object_get(root, key);
+  json_t *object = json_is_object(old) ? json_incref(old) : json_object();
+  char *text = json_object_set_new(object, inner, json_string(value)) == 0 ? dump(object) : NULL;
+  result =
+      text ? slab_json_set(slab, key, text, error) : slab_fail(error, SLAB_MEMORY, "out of memory");
+  free(text);
+  json_decref(object);
+  json_decref(root);
+  return result;
+}
+
 /* A string, or a note in its place where it is not UTF-8. */
 static json_t *string(const char *text) {
   json_t *value = json_string(text);

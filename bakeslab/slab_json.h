@@ -35,6 +35,15 @@ char *slab_json_get(const struct slab *slab, const char *key);
  * caller frees it. */
 char *slab_json_get_string(const struct slab *slab, const char *key, const char *inner);
 
+/* The number at key.inner.innermost, say "provenance", "noise" and "sample"; NAN where it
+ * is none. */
+double slab_json_get_number(const struct slab *slab, const char *key, const char *inner,
+                            const char *innermost);
+
+/* Sets the string at key.inner; whatever else is at `key` stays if it is an object. */
+enum slab_result slab_json_set_string(struct slab *slab, const char *key, const char *inner,
+                                      const char *value, struct slab_error *error);
+
 /* Records in "provenance" that `command` of `tool` made the slab. The command
  * and tool before go to the end of its array "history"; its other keys stay,
  * since they still describe the light. Where the samples were `changed`, as by
