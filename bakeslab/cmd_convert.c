@@ -1,4 +1,4 @@
-/* cmd_convert.c - bakeslab convert: other container, precision, resolution. */
+/* cmd_convert.c - bakeslab convert: other container, precision, resolution; sharpening. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,15 +8,17 @@
 #include "slab_file.h"
 #include "slab_json.h"
 #include "slab_resample.h"
+#include "slab_sharpen.h"
 
 struct options {
   const char *input, *output;
   enum slab_precision precision;
   int samples[SLAB_AXES];               /* 0: as it is */
   int first[SLAB_AXES], end[SLAB_AXES]; /* end 0: all */
+  bool sharpen, positive;
 };
 
-enum { OPTION_PRECISION = 256, OPTION_UV, OPTION_ST, OPTION_CROP };
+enum { OPTION_PRECISION = 256, OPTION_UV, OPTION_ST, OPTION_CROP, OPTION_SHARPEN, OPTION_POSITIVE };
 
 static void parse_size(const char *option, const char *text, int *samples,
                        struct argp_state *state) {
@@ -56,8 +58,16 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
   case OPTION_CROP:
     parse_crop(argument, options, state);
     return 0;
+  case OPTION_SHARPEN:
+    if (strcmp(argument, "st") != 0) argp_error(state, "--sharpen %s: must be st", argument);
+    options->sharpen = true;
+    return 0;
+  case OPTION_POSITIVE:
+    options->positive = true;
+    return 0;
   case ARGP_KEY_SUCCESS:
     if (!options->output) argp_error(state, "no output given: -o OUT");
+    if (options->positive && !options->sharpen) argp_error(state, "--positive needs --sharpen");
     return 0;
   default:
     return cli_parse_slab(key, argument, state, &options->input);
@@ -67,6 +77,36 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
 static void replace(struct slab *slab, struct slab *with) {
   slab_free(slab);
   *slab = *with;
+}
+
+/* Sharpening is of cell means, and once. Resampling a sharpened slab would be neither of
+ * cell means nor sharpened. */
+static enum slab_result check_sharpening(const struct options *options, const struct slab *slab,
+                                         bool resample_st, struct slab_error *error) {
+  bool sharpened = slab_is_sharpened(slab);
+  char *how = slab_json_get(slab, "samples_are");
+  bool points = how && !strcmp(how, "\"points\"");
+  free(how);
+  if (sharpened && options->sharpen)
+    return slab_fail(error, SLAB_BAD, "is sharpened already, as its provenance says");
+  if (sharpened && resample_st)
+    return slab_fail(error, SLAB_BAD,
+                     "is sharpened: give --st to the convert that sharpens the slab it is from");
+  if (points && options->sharpen)
+    return slab_fail(error, SLAB_BAD,
+                     "its samples are points: only means over cells can be sharpened (bake without "
+                     "--centre)");
+  return SLAB_OK;
+}
+
+static enum slab_result sharpen_page(const struct options *options, struct slab *slab,
+                                     struct slab_error *error) {
+  enum slab_precision precision = slab_file_precision_of(options->output, options->precision);
+  enum slab_sharpening how = options->positive || precision == SLAB_PRECISION_LOGLUV
+                                 ? SLAB_SHARPEN_POSITIVE
+                                 : SLAB_SHARPEN_EXACT;
+  enum slab_result result = slab_sharpen(slab, how, error);
+  return result == SLAB_OK ? slab_sharpen_record(slab, how, error) : result;
 }
 
 static enum slab_result convert_page(const struct options *options, struct slab *slab,
@@ -82,7 +122,11 @@ static enum slab_result convert_page(const struct options *options, struct slab 
     resample |= samples[axis] != end[axis] - first[axis];
   }
   struct slab other = {0};
-  if (crop) {
+  result = check_sharpening(options, slab,
+                            samples[SLAB_S] != end[SLAB_S] - first[SLAB_S] ||
+                                samples[SLAB_T] != end[SLAB_T] - first[SLAB_T],
+                            error);
+  if (crop && result == SLAB_OK) {
     result = slab_crop(slab, first, end, &other, error);
     if (result == SLAB_OK) replace(slab, &other);
   }
@@ -92,7 +136,8 @@ static enum slab_result convert_page(const struct options *options, struct slab 
   }
   if (result == SLAB_OK)
     result = slab_json_record(slab, cli_command_line(), "bakeslab " CANNED_VERSION,
-                              crop || resample, error);
+                              crop || resample || options->sharpen, error);
+  if (result == SLAB_OK && options->sharpen) result = sharpen_page(options, slab, error);
   return result;
 }
 
@@ -124,6 +169,12 @@ int cmd_convert(int argc, char **argv) {
        "Keep a part, before anything else: uv=I0:I1,J0:J1 or st=K0:K1,L0:L1, sample numbers from "
        "0, the end not included. May be given for both.",
        0},
+      {"sharpen", OPTION_SHARPEN, "st", 0,
+       "After all that: sharpen along s and t, so that the interpolated radiance keeps the means "
+       "over cells that the samples are",
+       0},
+      {"positive", OPTION_POSITIVE, NULL, 0,
+       "With --sharpen, no sample becomes negative, as always in LogLuv; include needs it", 0},
       {0}};
   static const struct argp argp = {
       .options = option,
@@ -132,11 +183,21 @@ int cmd_convert(int argc, char **argv) {
       .args_doc = "SLAB -o OUT",
       .doc = "Writes a light slab into another container, or with another precision or resolution. "
              "Fewer samples are means over the new cells, more are interpolated. The command is "
-             "recorded in the provenance."
+             "recorded in the provenance.\n\n"
+             "--sharpen st undoes the blur that interpolating cell means adds along s and t. Each "
+             "view keeps its sum, and so its radiance integrated over slopes; beside edges samples "
+             "may become negative. In LogLuv, and with --positive, light moves between "
+             "neighbouring cells only as far as none becomes negative, and means beside edges are "
+             "kept less well. It pays for light that is smooth from sample to sample (a fourth of "
+             "the error of irradiance, and much less) or has peaks a few cells wide (a fifth to "
+             "two thirds). It does not where edges move by cells from view to view, as behind "
+             "fine bars (the paper's lamp gets 1.1 to 1.5 times more), and it amplifies noise: "
+             "bake with 64 rays or more. Compare bakeslab check --error of both."
              "\vExamples:\n"
              "  bakeslab convert lamp.tif -o lamp.exr\n"
              "  bakeslab convert lamp.tif -o small.tif --uv 8x8 --st 32x32\n"
              "  bakeslab convert lamp.exr -o exact.tif --precision float\n"
+             "  bakeslab convert lamp.exr -o sharp.exr --sharpen st\n"
              "  bakeslab convert lamp.tif -o middle.tif --crop st=16:48,16:48\n"
              "  bakeslab convert lamp.tif -o - --uv 4x4 | bakeslab info -"};
   struct options options = {0};

@@ -51,6 +51,9 @@ void slab_file_free_all(struct slab *slabs, int count);
 enum slab_result slab_file_check_target(const char *path, enum slab_precision precision,
                                         struct slab_error *error);
 
+/* The precision that slab_file_write would use; DEFAULT where it would refuse. */
+enum slab_precision slab_file_precision_of(const char *path, enum slab_precision precision);
+
 /* Writes all pages, whole or not at all (a temporary name beside the target,
  * then rename). The container follows the name: .tif, .tiff or .exr; "-" is a TIFF on
  * standard output. */

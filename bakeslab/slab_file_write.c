@@ -50,6 +50,13 @@ enum slab_result slab_file_check_target(const char *path, enum slab_precision pr
   return result;
 }
 
+enum slab_precision slab_file_precision_of(const char *path, enum slab_precision precision) {
+  bool exr;
+  if (choose(strcmp(path, "-") ? path : "stdout.tif", &precision, &exr, NULL) != SLAB_OK)
+    return SLAB_PRECISION_DEFAULT;
+  return precision;
+}
+
 /* Why a sample cannot be written, or NULL. */
 static const char *objection(enum slab_precision precision, const float rgb[3]) {
   if (!isfinite(rgb[0]) || !isfinite(rgb[1]) || !isfinite(rgb[2])) return "is not finite";
