@@ -1,0 +1,116 @@
+#!/usr/bin/env bats
+# convert --sharpen and check --error.
+
+bats_require_minimum_version 1.5.0
+load slab
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return
+  zero=00000000 one=3f800000
+  # one view of 8 x 1: an edge
+  black="$zero$zero$zero" white="$one$one$one" means=', "name": "edge", "samples_are": "cell_means"'
+  raw_slab edge.tif '[1, 1, 8, 1]' 8 1 "$means" "$black$black$black$black$white$white$white$white"
+}
+
+lookup() { "$BAKESLAB" lookup "$1" <<<"0 0 0 $2 -1 0" | cut -d' ' -f1; }
+near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <= t) }'; }
+
+@test "--sharpen st: cell means, and no more of anything" {
+  "$BAKESLAB" convert edge.tif -o sharp.exr --sharpen st
+  for cell in 0 1 2 3 4 5 6 7; do
+    middle=$(awk -v k="$cell" 'BEGIN { print -1 + (k + 0.5)/4 }')
+    mean=0
+    for step in -0.0625 0.0625; do
+      radiance=$(lookup sharp.exr "$(awk -v m="$middle" -v s="$step" 'BEGIN { print m + s }')")
+      mean=$(awk -v m="$mean" -v r="$radiance" 'BEGIN { printf "%.9g", m + r/2 }')
+    done
+    near "$mean" "$(awk -v k="$cell" 'BEGIN { print (k > 3) }')" 1e-6
+  done
+  run --separate-stderr "$BAKESLAB" info sharp.exr
+  [[ $output == *"lowest"*"-0.2071"* ]]
+  [[ $output == *"samples are"*"cell_means"* ]]
+  [[ $output == *"sharpened"*"st"* ]]
+  [[ $output == *"bakeslab convert edge.tif -o sharp.exr --sharpen st"* ]]
+}
+
+@test "--sharpen st: never negative in LogLuv, nor with --positive" {
+  "$BAKESLAB" convert edge.tif -o sharp.tif --sharpen st
+  "$BAKESLAB" convert edge.tif -o - --sharpen st >piped.tif
+  "$BAKESLAB" convert edge.tif -o sharp.exr --sharpen st --positive
+  for file in sharp.tif piped.tif sharp.exr; do
+    lowest=$("$BAKESLAB" info "$file" | awk '$1 == "lowest" { print $2 }')
+    near "$lowest" 0 0
+    "$BAKESLAB" info "$file" | grep -q 'sharpened .*st, not below zero'
+  done
+  "$BAKESLAB" include sharp.exr -o out.inc
+  "$BAKESLAB" convert edge.tif -o negative.exr --sharpen st
+  run --separate-stderr "$BAKESLAB" include negative.exr -o out2.inc
+  refused 1 "negative"
+}
+
+@test "--sharpen st: a constant slab keeps its samples, 1-wide axes too" {
+  for samples in '[1, 1, 1, 1] 1 1' '[2, 1, 3, 1] 6 1' '[1, 2, 1, 3] 1 6' '[1, 1, 5, 4] 5 4'; do
+    raw_slab flat.tif "${samples% * *}" "$(cut -d' ' -f5 <<<"$samples")" "$(cut -d' ' -f6 <<<"$samples")" "$means" 3dcccccd 3f19999a 42c80000
+    "$BAKESLAB" convert flat.tif -o sharp.exr --sharpen st
+    run --separate-stderr "$BAKESLAB" diff --tolerance 0 flat.tif sharp.exr
+    [ "$status" -eq 0 ]
+  done
+}
+
+@test "--sharpen refuses points, and what is sharpened already" {
+  raw_slab points.tif '[1, 1, 8, 1]' 8 1 ', "samples_are": "points"' "$one" "$one" "$one"
+  run --separate-stderr "$BAKESLAB" convert points.tif -o x.exr --sharpen st
+  refused 1 "points.tif: page 1: its samples are points"
+  "$BAKESLAB" convert edge.tif -o sharp.exr --sharpen st
+  run --separate-stderr "$BAKESLAB" convert sharp.exr -o x.exr --sharpen st
+  refused 1 "sharp.exr: page 1: is sharpened already"
+  run --separate-stderr "$BAKESLAB" convert sharp.exr -o x.exr --st 4x1
+  refused 1 "sharp.exr: page 1: is sharpened" "--st"
+  [ ! -e x.exr ]
+  # containers and uv are free
+  "$BAKESLAB" convert sharp.exr -o copy.tif --precision float --uv 2x1
+  run --separate-stderr "$BAKESLAB" convert copy.tif -o x.exr --sharpen st
+  refused 1 "copy.tif: page 1: is sharpened already"
+  # resampling comes first
+  "$BAKESLAB" convert edge.tif -o fewer.exr --st 4x1 --sharpen st
+  near "$(lookup fewer.exr -0.75)" 0 0.05
+  # a slab that does not say how it was sampled is taken at its word
+  raw_slab silent.tif '[1, 1, 8, 1]' 8 1 '' "$black$white"
+  "$BAKESLAB" convert silent.tif -o silent.exr --sharpen st
+}
+
+@test "--sharpen: usage" {
+  for arguments in "--sharpen" "--sharpen uv" "--sharpen=" "--positive"; do
+    # shellcheck disable=SC2086
+    run --separate-stderr "$BAKESLAB" convert edge.tif -o x.exr $arguments
+    [ "$status" -eq 2 ]
+    [ -n "$stderr" ]
+  done
+  [ ! -e x.exr ]
+}
+
+@test "check --error: three distances, what is not known" {
+  run --separate-stderr "$BAKESLAB" check --error edge.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *"edge.tif: page 1: error of irradiance at 1 aperture (0.2): at least "*" % (st "*" %, uv unknown, noise unknown)"* ]]
+  [[ $output == *"at 4 apertures (0.8)"*"at 16 apertures (3.2)"* ]]
+  raw_slab one.tif '[1, 1, 1, 1]' 1 1 '' "$one"
+  run --separate-stderr "$BAKESLAB" check --error one.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *"at 16 apertures (3.2): unknown (st unknown, uv unknown, noise unknown)"* ]]
+  raw_slab noisy.tif '[4, 4, 4, 4]' 16 16 ', "provenance": {"noise": {"sample": 0.1, "flux": 0.02}}' "$one" "$one" "$one"
+  run --separate-stderr "$BAKESLAB" check --error noisy.tif
+  [[ $output == *"about 2."*"st 0 %, uv 0 %, noise 2."* ]]
+  run --separate-stderr "$BAKESLAB" check noisy.tif
+  [[ $output != *"error of"* ]]
+  raw_slab dark.tif '[4, 4, 4, 4]' 16 16 '' "$zero"
+  run --separate-stderr "$BAKESLAB" check --error dark.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *"about 0 % (st 0 %, uv 0 %, noise unknown)"* ]]
+}
+
+@test "check --error: files that are bad are refused as ever" {
+  raw_slab nan.tif '[4, 4, 4, 4]' 16 16 '' 7fc00000
+  run --separate-stderr "$BAKESLAB" check --error nan.tif
+  refused 1 "nan.tif: page 1: sample (0, 0, 0, 0) is not finite"
+}
