@@ -63,3 +63,37 @@ for rays in 16 64; do
 done
 row "flux of the default bake against $flux W of the lamp, in %" "${flow[adaptive16]}" '+-0.5' \
   "$(holds "${flow[adaptive16]} <= 0.5 && ${flow[adaptive16]} >= -0.5")"
+
+heading "Sharpened along s and t (convert --sharpen st): errors before and after, in %"
+printf '  %-38s %10s %10s %10s %10s\n' '' floor after flux after
+"$TOOLS/floor" ideal truth.bin exact.exr >/dev/null
+for name in exact adaptive16 adaptive64; do
+  "$BAKESLAB" convert "$name.exr" -o "$name-sharp.exr" --sharpen st
+  "$BAKESLAB" convert "$name.exr" -o "$name-positive.exr" --sharpen st --positive
+  read -r before flux_before _ < <("$TOOLS/floor" compare truth.bin "$name.exr")
+  for kind in sharp positive; do
+    read -r after flux_after _ < <("$TOOLS/floor" compare truth.bin "$name-$kind.exr")
+    printf '  %-38s %10s %10s %10s %10s\n' "the paper's lamp, $name, $kind" "$before" "$after" "$flux_before" "$flux_after"
+  done
+done
+"$TOOLS/floor" lobe lobe.exr 16 64
+"$BAKESLAB" convert lobe.exr -o lobe-sharp.exr --sharpen st
+for apertures in 1 3 16; do
+  { read -r _ _ _ _ before; read -r _ _ _ _ after; } < <("$TOOLS/floor" own lobe "$apertures" lobe.exr lobe-sharp.exr)
+  row "a smooth lamp, $apertures apertures: before, after" "$before, $after" '1/3' "$(holds "$after <= $before/3")"
+done
+
+heading "What a slab says of its own error (check --error): stated/true, relative RMS in %"
+own() { # LAMP APERTURES NAME...
+  local lamp=$1 apertures=$2 said truth
+  shift 2
+  "$TOOLS/floor" own "$lamp" "$apertures" "${@/%/.exr}" | while read -r said _ _ _ truth; do
+    row "$lamp lamp, $1, $apertures apertures" "$said/$truth" 'factor 2' \
+      "$(holds "$said <= 2*$truth && $truth <= 2*$said")"
+    shift
+  done
+}
+for apertures in 1 3 4 16; do
+  own paper "$apertures" exact adaptive16 uniform16 exact-sharp
+done
+own lobe 3 lobe lobe-sharp

@@ -2,8 +2,14 @@
  *
  *   floor truth FILE UV ST RAYS   computes what the lamp itself does to the floor, its flux,
  *                                 and the means over the cells of UV x UV x ST x ST samples
- *   floor ideal FILE              the errors of a slab of those means
+ *   floor ideal FILE [SLAB]       the errors of a slab of those means; writes it
  *   floor compare FILE SLAB       the errors of a slab
+ *   floor lobe SLAB UV ST         writes a slab of the means of a smooth lamp, whose radiance is a
+ *                                 Gaussian of the slopes
+ *   floor own LAMP APERTURES SLAB...
+ *                                 for each slab, what it says of its own error at a distance (all,
+ *                                 st, uv, noise), and its error there against the lamp, which is
+ *                                 "paper" or "lobe": RMS over RMS
  *   floor image FILE EXR [OTHER]  that of POV-Ray's picture of a floor of pigment 1 from above, a
  *                                 multiple of 64 pixels wide, and its mean over the truth's (or
  *                                 over another picture's)
@@ -22,9 +28,11 @@
 #include "lamp.h"
 #include "slab_exr.h"
 #include "slab_file.h"
+#include "slab_floor.h"
+#include "slab_json.h"
 
 enum { SIDE = 64, POINTS = 600, CELL_POINTS = 8, FLUX_RAYS = 1 << 24 };
-static const double below = 60, width = 160;
+static double below = 60, width = 160; /* `own` asks for others */
 
 static double receiver(int n) {
   return ((n + 0.5) / SIDE - 0.5) * width;
@@ -54,6 +62,16 @@ static size_t mean_count(const struct truth *truth) {
   return (size_t)truth->uv * (size_t)truth->uv * (size_t)truth->st * (size_t)truth->st;
 }
 
+/* The smooth lamp, or the paper's. */
+static const double lobe_width = 0.5;
+
+static double lobe(double a, double b, double s, double t) {
+  (void)a, (void)b;
+  return exp(-(s * s + t * t) / (2 * lobe_width * lobe_width));
+}
+
+static double (*radiance_of)(double a, double b, double s, double t) = lamp_radiance;
+
 /* Irradiance by midpoints on the aperture: cos^2/r^2 = below^2/r^4. */
 static double direct(double x, double z) {
   double sum = 0, step = lamp_aperture / POINTS;
@@ -61,7 +79,7 @@ static double direct(double x, double z) {
     for (int i = 0; i < POINTS; ++i) {
       double a = (i + 0.5) * step - lamp_aperture / 2, b = (j + 0.5) * step - lamp_aperture / 2;
       double s = (x - a) / below, t = (z - b) / below, r = 1 + s * s + t * t;
-      sum += lamp_radiance(a, b, s, t) / (r * r);
+      if (fabs(s) <= lamp_slope && fabs(t) <= lamp_slope) sum += radiance_of(a, b, s, t) / (r * r);
     }
   return sum * step * step / (below * below);
 }
@@ -187,12 +205,14 @@ static double lit(const struct light *light, double x, double z) {
       st[axis][n] = between(slope[axis][n], -lamp_slope, lamp_slope, light->st);
     }
   for (int j = 0; j < points; ++j) {
+    if (fabs(slope[1][j]) > lamp_slope) continue;
     const float *rows[4];
     const int views[2] = {uv[1][j].first, uv[1][j].second},
               lines[2] = {st[1][j].first, st[1][j].second};
     for (int n = 0; n < 4; ++n)
       rows[n] = light->sample + (size_t)(views[n / 2] * light->st + lines[n % 2]) * (size_t)side;
     for (int i = 0; i < points; ++i) {
+      if (fabs(slope[0][i]) > lamp_slope) continue;
       float corner[4];
       for (int n = 0; n < 4; ++n) {
         int column = (n / 2 ? uv[0][i].second : uv[0][i].first) * light->st +
@@ -234,7 +254,39 @@ static void report(const struct truth *truth, const struct light *light, double 
          flux != 0 ? 100 * (flux / truth->flux - 1) : 0, 100 * samples);
 }
 
-static void ideal(const char *path) {
+/* As bakeslab would write it: grey. */
+static void write_means(const char *name, const struct light *light) {
+  struct slab slab = slab_default();
+  struct slab_error error;
+  const int samples[SLAB_AXES] = {light->uv, light->uv, light->st, light->st};
+  memcpy(slab.samples, samples, sizeof samples);
+  slab.u[0] = slab.v[2] = lamp_aperture;
+  for (int n = 0; n < 4; ++n) slab.st_window[n] = n % 2 ? lamp_slope : -lamp_slope;
+  if (slab_alloc(&slab, &error) || slab_json_set(&slab, "samples_are", "\"cell_means\"", &error))
+    die(error.text);
+  size_t count = slab_sample_count(&slab);
+  for (size_t n = 0; n < 3 * count; ++n) slab.rgb[n] = light->sample[n / 3];
+  if (slab_file_write(name, &slab, 1, SLAB_PRECISION_FLOAT, &error)) die(error.text);
+  slab_free(&slab);
+}
+
+static void write_lobe(const char *name, int uv, int st) {
+  double mean[1024] = {0}, step = 2 * lamp_slope / st, unit = lobe_width * sqrt(2);
+  float *sample = room((size_t)uv * (size_t)uv * (size_t)st * (size_t)st, sizeof *sample);
+  struct light light = {uv, st, sample};
+  if (st > 1024) die("too many samples");
+  for (int k = 0; k < st; ++k) {
+    double low = k * step - lamp_slope;
+    mean[k] = unit * 0.5 * sqrt(3.14159265358979323846) / step *
+              (erf((low + step) / unit) - erf(low / unit));
+  }
+  for (int row = 0; row < uv * st; ++row)
+    for (int column = 0; column < uv * st; ++column)
+      *sample++ = (float)(mean[row % st] * mean[column % st]);
+  write_means(name, &light);
+}
+
+static void ideal(const char *path, const char *name) {
   static struct truth truth;
   read_truth(path, &truth);
   size_t count = mean_count(&truth);
@@ -242,6 +294,47 @@ static void ideal(const char *path) {
   for (size_t n = 0; n < count; ++n) sample[n] = 0.5f * (truth.means[0][n] + truth.means[1][n]);
   struct light light = {truth.uv, truth.st, sample};
   report(&truth, &light, 0);
+  if (name) write_means(name, &light);
+}
+
+static float *green(const struct slab *slab) {
+  size_t count = slab_sample_count(slab);
+  float *sample = room(count, sizeof *sample);
+  for (size_t k = 0; k < count; ++k) sample[k] = slab->rgb[3 * k + 1];
+  return sample;
+}
+
+/* RMS of a slab's error over the RMS of the truth. */
+static double relative_error(const struct light *light, const double *truth) {
+  double wrong = 0, all = 0;
+  for (int n = 0; n < SIDE * SIDE; ++n) {
+    double error = lit(light, receiver(n % SIDE), receiver(n / SIDE)) - truth[n];
+    wrong += error * error;
+    all += truth[n] * truth[n];
+  }
+  return sqrt(wrong / all);
+}
+
+/* On a floor that holds all of the light. */
+static void own(double apertures, char **names) {
+  static double truth[SIDE * SIDE];
+  below = apertures * lamp_aperture;
+  width = 2 * below * lamp_slope + lamp_aperture;
+  fill_floor(truth);
+  for (; *names; ++names) {
+    struct slab *slabs;
+    struct slab_error error;
+    struct slab_floor floor;
+    int pages;
+    if (slab_file_load_all(*names, &slabs, &pages, &error)) die(error.text);
+    if (slab_floor_estimate(slabs, 1, &below, &floor, &error)) die(error.text);
+    float *sample = green(slabs);
+    struct light light = {slabs->samples[SLAB_U], slabs->samples[SLAB_S], sample};
+    printf("%.3g %.3g %.3g %.3g %.3g\n", 100 * floor.all, 100 * floor.st, 100 * floor.uv,
+           100 * floor.noise, 100 * relative_error(&light, truth));
+    free(sample);
+    slab_file_free_all(slabs, pages);
+  }
 }
 
 static void compare(const char *path, const char *name) {
@@ -255,10 +348,7 @@ static void compare(const char *path, const char *name) {
   if (pages != 1 || n[SLAB_U] != truth.uv || n[SLAB_V] != truth.uv || n[SLAB_S] != truth.st ||
       n[SLAB_T] != truth.st)
     die("the slab has other samples than the truth");
-  size_t count = mean_count(&truth);
-  float *sample = room(count, sizeof *sample);
-  for (size_t k = 0; k < count; ++k) sample[k] = slabs->rgb[3 * k + 1];
-  struct light light = {truth.uv, truth.st, sample};
+  struct light light = {truth.uv, truth.st, green(slabs)};
   double flux[3];
   slab_flux(slabs, flux);
   report(&truth, &light, flux[1]);
@@ -324,10 +414,15 @@ int main(int argc, char **argv) {
   if (!strcmp(what, "truth") && argc == 6)
     make_truth(argv[2], atoi(argv[3]), atoi(argv[4]), atoi(argv[5]));
   else if (!strcmp(what, "ideal"))
-    ideal(argv[2]);
+    ideal(argv[2], argv[3]);
   else if (!strcmp(what, "compare") && argc == 4)
     compare(argv[2], argv[3]);
-  else if (!strcmp(what, "image") && (argc == 4 || argc == 5))
+  else if (!strcmp(what, "lobe") && argc == 5)
+    write_lobe(argv[2], atoi(argv[3]), atoi(argv[4]));
+  else if (!strcmp(what, "own") && argc > 4) {
+    if (!strcmp(argv[2], "lobe")) radiance_of = lobe;
+    own(atof(argv[3]), argv + 4);
+  } else if (!strcmp(what, "image") && (argc == 4 || argc == 5))
     image(argv[2], argv[3], argv[4]);
   else if (!strcmp(what, "picture") && argc == 5)
     picture(argv[2], atof(argv[3]), atof(argv[4]));
