@@ -202,11 +202,40 @@ static void sum_cut(struct cells *cells, const struct span *span, const float *c
   }
 }
 
+/* Where any of the row's samples is not 0. */
+static struct dark_row find_lit(const struct view *view, const struct strip_taps *taps) {
+  const struct dark_row *rows = view->page->lit;
+  int count = view->page->axes[1].far_count;
+  struct dark_row lit = rows[taps->near * count + taps->far];
+  for (int tap = 1; tap < 4; ++tap) {
+    int near = taps->near + (tap >> 1) * taps->near_up, far = taps->far + (tap & 1) * taps->far_up;
+    lit = dark_join(&lit, &rows[near * count + far]);
+  }
+  return lit;
+}
+
+static bool is_black(const struct strip_taps *taps, const struct dark_row *lit) {
+  return taps->near + taps->near_up < lit->near[0] || taps->near > lit->near[1] ||
+         taps->far + taps->far_up < lit->far[0] || taps->far > lit->far[1];
+}
+
+/* Strips ascend or descend through the samples, so the black ones are at the ends. */
+static void trim(const struct strips *strips, const struct dark_row *lit, int range[2],
+                 uint64_t *black) {
+  int before = range[1] - range[0];
+  while (range[0] < range[1] && is_black(&strips->strip[range[0]].taps, lit)) ++range[0];
+  while (range[0] < range[1] && is_black(&strips->strip[range[1] - 1].taps, lit)) --range[1];
+  *black += (uint64_t)(before - (range[1] - range[0]));
+}
+
 void cells_sum_row(struct cells *cells, struct cells_scratch *scratch,
                    struct cells_counts *counts) {
   const struct strip *row = &cells->nodes[1].strips.strip[cells->row];
-  const struct span span = find_span(cells, row);
+  const struct dark_row lit = find_lit(&cells->view, &row->taps);
+  struct span span = find_span(cells, row);
   const float *rows[4];
+  trim(&cells->nodes[0].strips, &lit, span.full, &counts->black);
+  trim(&cells->nodes[0].strips, &lit, span.cut, &counts->black);
   view_rows(&cells->view, &row->taps, rows);
   if (span.full[1] > span.full[0])
     (cells->kind == CELLS_GAUSS ? sum_gauss : sum_single)(cells, &span, rows, scratch, counts);

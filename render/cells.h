@@ -33,7 +33,8 @@ struct cells {
 };
 
 struct cells_counts {
-  uint64_t microlights, nodes;
+  uint64_t microlights, nodes; /* visited */
+  uint64_t black;              /* micro lights that were not: all their samples are 0 */
 };
 
 void cells_free(struct cells *cells);

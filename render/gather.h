@@ -47,6 +47,7 @@ struct gather_counts {
   uint64_t receivers;
   uint64_t microlights; /* visited */
   uint64_t nodes;       /* at which the kernel was evaluated */
+  uint64_t black;       /* micro lights that were skipped: all their samples are 0 */
   uint64_t shadow_rays;
   uint64_t pages_behind; /* pages that were skipped: the receiver is behind them, beside all
                             that they emit, or they are below its tangent plane */

@@ -21,8 +21,10 @@ static enum slab_result halve(const struct light_page *below, struct light_page 
     samples[axis] = halved(slab, axis) ? (slab->samples[axis] + 1) / 2 : slab->samples[axis];
   *page = *below;
   page->slab = (struct slab){0};
+  page->lit = NULL;
   enum slab_result result = slab_resample(slab, samples, &page->slab, error);
-  if (result == SLAB_OK) light_page_set_samples(page);
+  if (result == SLAB_OK) result = light_page_set_samples(page, error);
+  if (result != SLAB_OK) light_page_free(page);
   return result;
 }
 
@@ -44,7 +46,7 @@ enum slab_result levels_build(const struct light_page *page, struct levels *leve
 
 void levels_free(struct levels *levels) {
   if (!levels) return;
-  for (int k = 0; k < levels->count; ++k) slab_free(&levels->page[k].slab);
+  for (int k = 0; k < levels->count; ++k) light_page_free(&levels->page[k]);
   free(levels->page);
   *levels = (struct levels){0};
 }

@@ -98,7 +98,7 @@ static enum slab_result place(const char *text, const struct light_text *where, 
   return result;
 }
 
-void light_page_set_samples(struct light_page *page) {
+enum slab_result light_page_set_samples(struct light_page *page, struct slab_error *error) {
   for (int k = 0; k < 2; ++k) {
     struct light_axis *axis = &page->axes[k];
     axis->near_count = page->slab.samples[k ? SLAB_V : SLAB_U];
@@ -106,9 +106,17 @@ void light_page_set_samples(struct light_page *page) {
     axis->near_step = 2 * axis->half / axis->near_count;
     axis->far_step = (axis->far_high - axis->far_low) / axis->far_count;
   }
+  free(page->lit);
+  page->lit = dark_rows(&page->slab);
+  return page->lit ? SLAB_OK : slab_fail(error, SLAB_MEMORY, "out of memory");
 }
 
-static void set_axes(struct light_page *page, double scale) {
+void light_page_free(struct light_page *page) {
+  free(page->lit);
+  slab_free(&page->slab);
+}
+
+static enum slab_result set_axes(struct light_page *page, double scale, struct slab_error *error) {
   const struct slab *slab = &page->slab;
   for (int k = 0; k < 2; ++k) {
     struct light_axis *axis = &page->axes[k];
@@ -117,7 +125,7 @@ static void set_axes(struct light_page *page, double scale) {
     axis->far_high = slab->st_window[2 * k + 1];
     axis->kappa = slab_kappa(slab) / scale;
   }
-  light_page_set_samples(page);
+  return light_page_set_samples(page, error);
 }
 
 static enum slab_result set_page(const char *text, const struct light *light,
@@ -131,7 +139,8 @@ static enum slab_result set_page(const char *text, const struct light *light,
     finite = vector_normalise(page->frame[c]) && finite;
     finite = isfinite(page->center[c]) && finite;
   }
-  set_axes(page, light->scale);
+  enum slab_result result = set_axes(page, light->scale, error);
+  if (result != SLAB_OK) return result;
   for (int k = 0; k < 2; ++k) {
     const struct light_axis *axis = &page->axes[k];
     finite = finite && axis->near_step > 0 && isfinite(axis->half) && isfinite(axis->kappa);
@@ -169,7 +178,7 @@ out:
 
 void light_free(struct light *light) {
   for (int page = 0; light->pages && page < light->count; ++page)
-    slab_free(&light->pages[page].slab);
+    light_page_free(&light->pages[page]);
   free(light->pages);
   free(light->path);
   *light = (struct light){0};

@@ -12,6 +12,7 @@
 
 #include <stdbool.h>
 
+#include "dark.h"
 #include "slab.h"
 
 /* One axis of a page: the aperture's (u or v), seen with the window's (s or t). Lengths in
@@ -30,6 +31,7 @@ struct light_page {
   double center[3];   /* in scene space, as the frame below: */
   double frame[3][3]; /* unit vectors u', v' and n */
   struct light_axis axes[2];
+  struct dark_row *lit; /* [rows of the raster]: where they are not black; owned */
 };
 
 struct light {
@@ -45,8 +47,9 @@ struct light {
 enum slab_result light_load(const char *text, struct light *light, struct slab_error *error);
 void light_free(struct light *light); /* zeroed light allowed */
 
-/* Sets what the page's axes know of its slab's samples, after these have changed. */
-void light_page_set_samples(struct light_page *page);
+/* Sets what the page knows of its slab's samples, after these have changed. */
+enum slab_result light_page_set_samples(struct light_page *page, struct slab_error *error);
+void light_page_free(struct light_page *page);
 
 /* Who looks into a lamp sees its slab: the nearest aperture that faces `origin` along the
  * unit `direction`, nearer than `limit`. Gives the radiance seen and returns the distance;

@@ -34,6 +34,7 @@ void stats_add_counts(struct gather_counts *sum, const struct gather_counts *cou
   sum->receivers += counts->receivers;
   sum->microlights += counts->microlights;
   sum->nodes += counts->nodes;
+  sum->black += counts->black;
   sum->shadow_rays += counts->shadow_rays;
   sum->pages_behind += counts->pages_behind;
   sum->error = fmax(sum->error, counts->error);
@@ -84,6 +85,7 @@ static json_t *object_of(const struct stats *stats) {
   json_object_set_new(object, "receivers", json_integer((json_int_t)counts->receivers));
   json_object_set_new(object, "microlights", json_integer((json_int_t)counts->microlights));
   json_object_set_new(object, "nodes", json_integer((json_int_t)counts->nodes));
+  json_object_set_new(object, "black_microlights", json_integer((json_int_t)counts->black));
   json_object_set_new(object, "shadow_rays", json_integer((json_int_t)counts->shadow_rays));
   json_object_set_new(object, "pages_behind", json_integer((json_int_t)counts->pages_behind));
   json_object_set_new(object, "effects", effects_of(stats));

@@ -76,6 +76,7 @@ static void make_light(int uv, int st, bool filled, struct light *light, struct 
   for (int axis = 0; axis < 2; ++axis) set_axis(&page->axes[axis], uv, st);
   if (filled) hold(slab_alloc(slab, &error), &error);
   if (filled) fill(slab);
+  if (filled) hold(light_page_set_samples(page, &error), &error);
   *light = (struct light){.count = 1, .pages = page, .gain = 1, .scale = 1};
 }
 
@@ -243,7 +244,7 @@ static void times(int uv, int st, const char *where, int repeats) {
            1e-9 * roofline_fused(), 1e-9 * roofline_plain());
     fflush(stdout);
   }
-  slab_free(&page.slab);
+  light_page_free(&page);
 }
 
 /* ---- Visits ---- */
@@ -272,7 +273,7 @@ static void print_visits(int uv, int st, const struct receiver receivers[COUNT])
   else
     printf("-\n");
   for (int axis = 0; axis < 2; ++axis) strips_free(&strips[axis]);
-  slab_free(&page.slab);
+  light_page_free(&page);
 }
 
 static void visits(void) {

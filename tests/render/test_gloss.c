@@ -40,7 +40,7 @@ static struct light make_light(double distance) {
     page->axes[axis].far_high = 1;
     page->axes[axis].kappa = 1 / distance;
   }
-  light_page_set_samples(page);
+  assert_int_equal(light_page_set_samples(page, &error), SLAB_OK);
   return light;
 }
 
@@ -114,7 +114,7 @@ static void each_case(void (*check)(const struct light *, const struct receiver 
       struct receiver receiver = make_receiver(k, exponents[(k + d) % 4]);
       check(&light, &receiver);
     }
-    slab_free(&light.pages[0].slab);
+    light_page_free(&light.pages[0]);
     free(light.pages);
   }
 }
