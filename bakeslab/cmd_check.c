@@ -162,22 +162,25 @@ int cmd_check(int argc, char **argv) {
       .parser = parse,
       .children = cli_options,
       .args_doc = "SLAB...",
-      .doc = "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
-             "standard output, where light is cut off: where the mean radiance of the last samples "
-             "of s or t is more than 2 % of that axis's brightest (enlarge the st window), and of "
-             "u or v more than 50 % (the lamp's opening fills the rectangle and may go on beyond "
-             "it). A warning is not an error.\n\n"
-             "With --error, it tells how far the irradiance of a surface that faces the slab is "
-             "off the lamp's, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
-             "in brackets): the RMS of the error over the RMS of the irradiance. It is told from "
-             "the slab alone: by what halving its resolution changes, for st and for uv, and by "
-             "the noise that the bake recorded, which sharpening and resampling forget. Expect it "
-             "to be right within a factor of 2; it is too small more than that where few rays a "
-             "sample have the same things wrong in all of them."
-             "\vExamples:\n"
-             "  bakeslab check lamp.tif\n"
-             "  bakeslab check --error lamp.tif\n"
-             "  bakeslab check --strict lamps/*.tif"};
+      .doc =
+          "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
+          "standard output, where light is cut off: where the mean radiance of the last samples "
+          "of s or t is more than 2 % of that axis's brightest (enlarge the st window), and of "
+          "u or v more than 50 % (the lamp's opening fills the rectangle and may go on beyond "
+          "it). A warning is not an error.\n\n"
+          "With --error, it tells how far the irradiance of a surface that faces the slab is "
+          "off the lamp's, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
+          "in brackets): the RMS of the error over the RMS of the irradiance. It is told from "
+          "the slab alone: by what halving its resolution changes, for st and for uv, and by "
+          "the noise that the bake recorded, which sharpening and resampling forget. Take it for "
+          "the size of the error: of 54 test lamps that had no part in its making, it was "
+          "within a factor of 2 for 45, and from 0.4 to 8 times the truth for all; for 38 of "
+          "54, and up to 12 times, once sharpened. It is too small for hard edges seen from "
+          "afar, and where a few rays a sample are all wrong alike."
+          "\vExamples:\n"
+          "  bakeslab check lamp.tif\n"
+          "  bakeslab check --error lamp.tif\n"
+          "  bakeslab check --strict lamps/*.tif"};
   struct options options = {0};
   argp_parse(&argp, argc, argv, 0, NULL, &options);
   int status = CLI_OK, warnings = 0;

@@ -191,7 +191,7 @@ int cmd_convert(int argc, char **argv) {
              "kept less well. It pays for light that is smooth from sample to sample (a fourth of "
              "the error of irradiance, and much less) or has peaks a few cells wide (a fifth to "
              "two thirds). It does not where edges move by cells from view to view, as behind "
-             "fine bars (the paper's lamp gets 1.1 to 1.5 times more), and it amplifies noise: "
+             "fine bars (the paper's lamp gets 1.2 to 1.6 times more), and it amplifies noise: "
              "bake with 64 rays or more. Compare bakeslab check --error of both."
              "\vExamples:\n"
              "  bakeslab convert lamp.tif -o lamp.exr\n"

@@ -1,5 +1,8 @@
 /* test_slab_floor.c - what a slab says of its own error, against lamps whose radiance is
- * known everywhere: the irradiance by exact means over cells, interpolated, and by the lamp. */
+ * known everywhere: the irradiance by exact means over cells, interpolated, and by the lamp.
+ * That these come out within a factor of 2 guards the estimate against changes. It doesn't say
+ * that all lamps do (slab_floor.c tells how many did): with a radius of 0.6 instead of 0.65,
+ * the edge is told 0.48 of its error from 16 apertures. */
 #include <math.h>
 #include <string.h>
 
