@@ -234,8 +234,10 @@ void cells_sum_row(struct cells *cells, struct cells_scratch *scratch,
   const struct dark_row lit = find_lit(&cells->view, &row->taps);
   struct span span = find_span(cells, row);
   const float *rows[4];
-  trim(&cells->nodes[0].strips, &lit, span.full, &counts->black);
-  trim(&cells->nodes[0].strips, &lit, span.cut, &counts->black);
+  if (cells->skip_black) {
+    trim(&cells->nodes[0].strips, &lit, span.full, &counts->black);
+    trim(&cells->nodes[0].strips, &lit, span.cut, &counts->black);
+  }
   view_rows(&cells->view, &row->taps, rows);
   if (span.full[1] > span.full[0])
     (cells->kind == CELLS_GAUSS ? sum_gauss : sum_single)(cells, &span, rows, scratch, counts);

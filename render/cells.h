@@ -28,6 +28,7 @@ struct cells {
   int column_room;
   double unit[2];   /* single precision: weights are relative to these lengths */
   bool above;       /* the tangent plane: all of it */
+  bool skip_black;  /* do not sum what is black; set by whoever prepares */
   int row;          /* next to sum */
   double rgb[2][3]; /* irradiance and gloss so far, but for `unit` */
 };

@@ -101,6 +101,7 @@ struct look {
   const struct light *light;
   const struct light_page *page;
   int page_number; /* of gather_aids */
+  bool shadows;    /* something may stand between */
   const struct receiver *receiver;
   int index; /* of the receiver, in its tile */
 };
@@ -191,6 +192,7 @@ static enum slab_result sum(struct gather *gather, const struct look *look, cons
                    : method == GATHER_PI      ? RULE_PI
                                               : RULE_MIDPOINT;
   gather->receiver[gather->waiting] = look->index;
+  gather->sums[gather->waiting].skip_black = !gather->settings->all_effects;
   return cells_prepare(&gather->sums[gather->waiting++], view, strips, kind, rule, &gather->orders,
                        error);
 }
@@ -276,8 +278,8 @@ static enum slab_result take_look(struct gather *gather, const struct look *look
   enum gather_method method = choose(gather, look, gather->whole, &predicted);
   gathered[look->index].error = fmax(gathered[look->index].error, predicted);
   gather->counts.error = fmax(gather->counts.error, predicted);
-  if (!gather->settings->occlusion)
-    return sum(gather, look, &view, gather->whole, method, gathered, error);
+  if (gather->settings->occlusion && !look->shadows) ++gather->counts.open_views;
+  if (!look->shadows) return sum(gather, look, &view, gather->whole, method, gathered, error);
   result = find_visible(gather, &view, look->receiver, error);
   for (int k = 0; k < gather->visible.count && result == SLAB_OK; ++k) {
     result = clip(gather, &gather->visible.rectangles[k], method == GATHER_VIEWS, error);
@@ -285,6 +287,27 @@ static enum slab_result take_look(struct gather *gather, const struct look *look
       result = sum(gather, look, &view, gather->part, method, gathered, error);
   }
   return result;
+}
+
+/* May anything stand between the receivers that face the page, and the page? */
+static bool find_shadows(struct gather *gather, const struct light_page *page,
+                         const struct receiver *receivers, int count) {
+  const struct occlusion *occlusion = gather->settings->occlusion;
+  if (!occlusion || gather->settings->all_effects) return occlusion != NULL;
+  double lifted[TOGETHER][3], corners[4][3];
+  struct view view;
+  int facing = 0;
+  for (int k = 0; k < count; ++k) {
+    if (!view_find(page, &receivers[k], &view)) continue;
+    if (facing == TOGETHER) return true;
+    occlusion_lift(occlusion, receivers[k].position, receivers[k].lift, lifted[facing++]);
+  }
+  for (int k = 0; k < 4; ++k)
+    for (int c = 0; c < 3; ++c)
+      corners[k][c] = page->center[c] + (k & 1 ? 1 : -1) * page->axes[0].half * page->frame[0][c] +
+                      (k & 2 ? 1 : -1) * page->axes[1].half * page->frame[1][c];
+  return occlusion_between(occlusion, (const double(*)[3])lifted, facing,
+                           (const double(*)[3])corners);
 }
 
 enum slab_result gather_light(struct gather *gather, const struct receiver *receivers, int count,
@@ -296,8 +319,9 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
   for (int l = 0, number = 0; l < settings->light_count; ++l) {
     const struct light *light = &settings->lights[l];
     for (int page = 0; page < light->count && result == SLAB_OK; ++page, ++number) {
+      bool shadows = find_shadows(gather, &light->pages[page], receivers, count);
       for (int k = 0; k < count && result == SLAB_OK; ++k) {
-        const struct look look = {light, &light->pages[page], number, &receivers[k], k};
+        const struct look look = {light, &light->pages[page], number, shadows, &receivers[k], k};
         result = take_look(gather, &look, gathered, error);
       }
       if (result == SLAB_OK) result = take_sums(gather, light->gain, gathered, error);

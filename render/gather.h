@@ -49,6 +49,7 @@ struct gather_counts {
   uint64_t nodes;       /* at which the kernel was evaluated */
   uint64_t black;       /* micro lights that were skipped: all their samples are 0 */
   uint64_t shadow_rays;
+  uint64_t open_views;   /* views of a page for which none were traced: nothing between */
   uint64_t pages_behind; /* pages that were skipped: the receiver is behind them, beside all
                             that they emit, or they are below its tangent plane */
   double error;          /* the largest of the receivers' */
@@ -76,6 +77,7 @@ struct gather_settings {
   uint64_t seed;                     /* of method paper */
   const struct occlusion *occlusion; /* NULL: nothing casts shadows */
   int shadow_grid, shadow_edge;      /* visible.h */
+  bool all_effects; /* skip nothing that could be told to be invisible: only to compare */
 };
 
 /* Scratch memory of one thread. */
@@ -86,7 +88,7 @@ void gather_free(struct gather *gather); /* NULL allowed */
 const struct gather_counts *gather_counts(const struct gather *gather);
 
 /* What `count` receivers gather; fast where they lie near each other (a tile). The result for
- * a receiver depends on nothing but itself. */
+ * a receiver does not depend on the others. */
 enum slab_result gather_light(struct gather *gather, const struct receiver *receivers, int count,
                               struct gathered *gathered, struct slab_error *error);
 

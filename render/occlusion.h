@@ -35,6 +35,11 @@ bool occlusion_nearest(const struct occlusion *occlusion, const double origin[3]
 void occlusion_lift(const struct occlusion *occlusion, const double position[3],
                     const double normal[3], double lifted[3]);
 
+/* May anything block any segment between a group of lifted receivers and the rectangle with
+ * these corners? `false` is certain (between.h). */
+bool occlusion_between(const struct occlusion *occlusion, const double (*lifted)[3], int count,
+                       const double corners[4][3]);
+
 /* Is the open segment between a lifted receiver and each of the points blocked? It ends four
  * lifts before the point, so that a surface in which the point lies (a ceiling around an
  * aperture) does not hide it. */

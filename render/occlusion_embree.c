@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "between.h"
 #include "scene.h"
 #include "vector.h"
 
@@ -30,6 +31,7 @@ struct occlusion {
   double scale;  /* from scene units */
   double box[3]; /* half edges, scaled, with the margin */
   bool empty;
+  struct between *between; /* owned */
 };
 
 /* Embree's own way is to print; rtcGetDeviceError tells us later. */
@@ -126,6 +128,7 @@ enum slab_result occlusion_create(const struct scene *scene, struct occlusion **
   if (!made) return slab_fail(error, SLAB_MEMORY, "out of memory");
   made->empty = scene->triangles == 0;
   enum slab_result result = made->empty ? SLAB_OK : build(scene, made, error);
+  if (result == SLAB_OK) result = between_create(scene, &made->between, error);
   if (result)
     occlusion_free(made);
   else
@@ -135,6 +138,7 @@ enum slab_result occlusion_create(const struct scene *scene, struct occlusion **
 
 void occlusion_free(struct occlusion *occlusion) {
   if (!occlusion) return;
+  between_free(occlusion->between);
   if (occlusion->scene) rtcReleaseScene(occlusion->scene);
   if (occlusion->device) rtcReleaseDevice(occlusion->device);
   free(occlusion);
@@ -155,6 +159,11 @@ static bool clip(const struct occlusion *occlusion, const double origin[3],
     if (leave < range[1]) range[1] = leave;
   }
   return range[0] < range[1];
+}
+
+bool occlusion_between(const struct occlusion *occlusion, const double (*lifted)[3], int count,
+                       const double corners[4][3]) {
+  return between_any(occlusion->between, lifted, count, corners);
 }
 
 bool occlusion_nearest(const struct occlusion *occlusion, const double origin[3],

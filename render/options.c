@@ -19,6 +19,7 @@ enum {
   OPTION_SEED,
   OPTION_STATS,
   OPTION_REPAIR,
+  OPTION_EFFECTS,
   OPTION_SHADOW_GRID,
   OPTION_SHADOW_EDGE
 };
@@ -139,6 +140,11 @@ static error_t parse_sum(int key, char *value, struct argp_state *state) {
   case OPTION_STATS:
     options->stats = value;
     return 0;
+  case OPTION_EFFECTS:
+    if (strcmp(value, "auto") && strcmp(value, "all"))
+      argp_error(state, "--effects %s: there are auto and all", value);
+    options->all_effects = !strcmp(value, "all");
+    return 0;
   case OPTION_SHADOW_GRID:
     options->shadow_grid = parse_count("--shadow-grid", value, MOST_SHADOW_GRID, state);
     return 0;
@@ -172,6 +178,10 @@ static const struct argp_option sum_options[] = {
      "Relative error that is allowed (default 0.01; 1e-6 for reference)", 0},
     {"level", OPTION_LEVEL, "K", 0,
      "Level of the hierarchy, for the methods levels and paper-levels (default: by solid angle)",
+     0},
+    {"effects", OPTION_EFFECTS, "auto|all", 0,
+     "auto (the default) traces no shadow rays where nothing stands between and sums nothing "
+     "black; all skips nothing, to compare",
      0},
     {"shadow-grid", OPTION_SHADOW_GRID, "N", 0,
      "Shadow rays look at each aperture in N x N blocks (default 16)", 0},
@@ -220,6 +230,7 @@ struct gather_settings options_settings(const struct options *options, const str
                                   .light_count = options->light_count,
                                   .aids = aids,
                                   .level = options->level,
+                                  .all_effects = options->all_effects,
                                   .method = options->method,
                                   .tolerance = options->tolerance,
                                   .seed = options->seed,

@@ -19,6 +19,7 @@ struct options {
   uint64_t seed;             /* 0 */
   const char *stats;         /* NULL: none */
   bool repair;
+  bool all_effects;             /* false: skip what cannot be seen */
   int shadow_grid, shadow_edge; /* 16, 256 */
 };
 

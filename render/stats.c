@@ -36,6 +36,7 @@ void stats_add_counts(struct gather_counts *sum, const struct gather_counts *cou
   sum->nodes += counts->nodes;
   sum->black += counts->black;
   sum->shadow_rays += counts->shadow_rays;
+  sum->open_views += counts->open_views;
   sum->pages_behind += counts->pages_behind;
   sum->error = fmax(sum->error, counts->error);
 }
@@ -87,6 +88,7 @@ static json_t *object_of(const struct stats *stats) {
   json_object_set_new(object, "nodes", json_integer((json_int_t)counts->nodes));
   json_object_set_new(object, "black_microlights", json_integer((json_int_t)counts->black));
   json_object_set_new(object, "shadow_rays", json_integer((json_int_t)counts->shadow_rays));
+  json_object_set_new(object, "open_views", json_integer((json_int_t)counts->open_views));
   json_object_set_new(object, "pages_behind", json_integer((json_int_t)counts->pages_behind));
   json_object_set_new(object, "effects", effects_of(stats));
   json_object_set_new(object, "error_estimate", error < 0 ? json_null() : json_real(error));

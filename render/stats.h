@@ -2,7 +2,8 @@
  *
  *   command, method, tolerance, threads
  *   seconds: {phase: wall seconds, ..., total}
- *   receivers, microlights, nodes, black_microlights, shadow_rays, pages_behind
+ *   receivers, microlights, nodes, black_microlights, shadow_rays, open_views,
+ *   pages_behind
  *   effects: {name: {simulated: true or false, reason: text}, ...}
  *   error_estimate: largest predicted relative error of a receiver's matte light */
 #ifndef STATS_H

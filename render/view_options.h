@@ -12,7 +12,7 @@ struct view_options {
   const char *mesh;
   bool camera_given;
   struct camera camera;
-  int size[2];          /* 640 x 480 */
+  int size[2]; /* 640 x 480 */
   bool size_given;
   double background[3]; /* black */
 };

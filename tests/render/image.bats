@@ -217,6 +217,16 @@ refuses() {
   refuses letter_f.tif "${good[@]}" -o a.exr --preview letter_f.tif
 }
 
+@test "what is skipped changes nothing but the cost" {
+  picture auto.exr --stats auto.json
+  picture all.exr --effects all --stats all.json
+  oiiotool auto.exr all.exr --diff
+  count() { sed -n "s/.*\"$1\": \([0-9]*\).*/\1/p" "$2"; }
+  [ "$(count open_views auto.json)" -gt 0 ]
+  [ "$(count open_views all.json)" -eq 0 ]
+  [ "$(count shadow_rays auto.json)" -lt "$(count shadow_rays all.json)" ]
+}
+
 @test "a picture too large for the memory" {
   [ "$CONFIG" != sanitize ] || skip "shadow memory needs more than the limit"
   before=$(ls)
