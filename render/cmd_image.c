@@ -236,7 +236,8 @@ static enum slab_result run(const struct arguments *arguments, struct slab_error
     stats_phase(&stats, "write");
     result = write_files(arguments, &picture, error);
   }
-  if (result == SLAB_OK && options->stats) result = stats_write(&stats, options->stats, error);
+  if (result == SLAB_OK && options->stats)
+    result = stats_write(&stats, world.lights, options->light_count, options->stats, error);
   slab_picture_free(&picture);
   unload(arguments, &world);
   return result;

@@ -128,6 +128,8 @@ static enum slab_result run(const struct arguments *arguments, struct stats *sta
   }
   if (result == SLAB_OK) result = answer(&work, error);
   finish(&work, stats);
+  if (result == SLAB_OK && options->stats)
+    result = stats_write(stats, lights, options->light_count, options->stats, error);
   gather_aids_free(&aids);
   occlusion_free(occlusion);
   scene_free(&scene);
@@ -160,7 +162,6 @@ int cmd_irradiance(int argc, char **argv) {
   stats.tolerance = options->tolerance;
   stats.threads = options->threads;
   enum slab_result result = run(&arguments, &stats, &error);
-  if (result == SLAB_OK && options->stats) result = stats_write(&stats, options->stats, &error);
   options_free(&arguments.options);
   int status = result == SLAB_OK ? CLI_OK : cli_fail(&error);
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "slab_floor.h"
 #include "slab_output.h"
 #include "slab_progress.h"
 
@@ -95,14 +96,45 @@ static json_t *object_of(const struct stats *stats) {
   return object;
 }
 
-enum slab_result stats_write(struct stats *stats, const char *path, struct slab_error *error) {
+/* Appends what a page errs by itself. */
+static enum slab_result add_floors(json_t *list, const struct light *light, int page,
+                                   struct slab_error *error) {
+  const struct slab *slab = &light->pages[page].slab;
+  double distances[SLAB_FLOOR_DISTANCES];
+  struct slab_floor floors[SLAB_FLOOR_DISTANCES];
+  for (int k = 0; k < SLAB_FLOOR_DISTANCES; ++k)
+    distances[k] = slab_floor_apertures[k] * slab_aperture(slab);
+  enum slab_result result =
+      slab_floor_estimate(slab, SLAB_FLOOR_DISTANCES, distances, floors, error);
+  for (int k = 0; k < SLAB_FLOOR_DISTANCES && result == SLAB_OK; ++k) {
+    json_t *about = isfinite(floors[k].all) ? json_real(floors[k].all) : json_null();
+    json_array_append_new(list, json_pack("{s:o, s:i, s:f, s:o}", "light", text_of(light->path),
+                                          "page", page + 1, "apertures", slab_floor_apertures[k],
+                                          "about", about));
+  }
+  return result;
+}
+
+static enum slab_result set_floors(json_t *object, const struct light *lights, int count,
+                                   struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  json_t *list = json_array();
+  for (int l = 0; l < count; ++l)
+    for (int page = 0; page < lights[l].count && result == SLAB_OK; ++page)
+      result = add_floors(list, &lights[l], page, error);
+  json_object_set_new(object, "slab_errors", list);
+  return result;
+}
+
+enum slab_result stats_write(struct stats *stats, const struct light *lights, int count,
+                             const char *path, struct slab_error *error) {
   stats_phase(stats, NULL);
   struct slab_output output = {0};
   json_t *object = object_of(stats);
+  enum slab_result result = set_floors(object, lights, count, error);
   char *text = json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
   size_t length = text ? strlen(text) : 0;
-  enum slab_result result = SLAB_OK;
-  if (!text) result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+  if (result == SLAB_OK && !text) result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
   if (result == SLAB_OK) {
     text[length] = '\n'; /* in place of the final zero */
     result = slab_output_begin(&output, path, error);

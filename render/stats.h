@@ -5,6 +5,8 @@
  *   receivers, microlights, nodes, black_microlights, shadow_rays, open_views,
  *   pages_behind
  *   effects: {name: {simulated: true or false, reason: text}, ...}
+ *   slab_errors: [{light, page, apertures, about}, ...]: relative RMS errors that the slabs
+ *   themselves have at some distances (slab_floor.h); digits below them mean nothing
  *   error_estimate: largest predicted relative error of a receiver's matte light */
 #ifndef STATS_H
 #define STATS_H
@@ -47,7 +49,9 @@ void stats_effect(struct stats *stats, const char *name, bool simulated, const c
 /* Adds what one thread did: sums, and the larger error. */
 void stats_add_counts(struct gather_counts *sum, const struct gather_counts *counts);
 
-/* Writes the object, whole or not at all; "-" is stdout. Ends the phase that goes on. */
-enum slab_result stats_write(struct stats *stats, const char *path, struct slab_error *error);
+/* Writes the object, whole or not at all; "-" is stdout. Ends the phase that goes on. Estimates
+ * the slabs' own errors, which takes a moment. */
+enum slab_result stats_write(struct stats *stats, const struct light *lights, int count,
+                             const char *path, struct slab_error *error);
 
 #endif
