@@ -1,0 +1,60 @@
+/* cut.h - method `cut`: the light of a page as a sum over blocks of views, few where that is
+ * exact enough (numerics: section 5).
+ *
+ * For a receiver at height z the ray through the point a of the aperture has the st coordinate
+ * s = s0 - w (a - a0), w = 1/z - kappa, s0 that of the ray through a0. A node of the tree
+ * (cut_tree.h) has radiance linear in a and b. Its product with the hat functions of uv and st
+ * (cut_axis.h) and the kernel, expanded to second order about the node's center, is integrated
+ * exactly: single views, the leaves, err by the kernel's higher orders alone.
+ *
+ * The cut starts with the root, or with the first level whose nodes are seen as at most 8 st
+ * samples wide, and splits the node with the largest estimated error until the estimate of the
+ * sum is within the tolerance. Estimates: what was measured when the tree was built, for the
+ * node's view of st; what the kernel's expansion leaves out.
+ *
+ * The micro lights do it instead, and cut_sum returns false, for glossy receivers, where the
+ * tangent plane cuts the aperture, where not even single views are exact enough, and where the
+ * cut would be no faster, of which there is little hope near the aperture of a rough lamp. Both
+ * sides keep the tolerance, so nothing is seen where one hands over to the other.
+ *
+ * The error of a page's light: the largest of the channels' absolute errors, relative to the
+ * largest channel, or to 1e-4 of the most that the page can send to the receiver's height,
+ * (largest radiance summed over the aperture)/z^2, if that is more, or to `floor`. */
+#ifndef CUT_H
+#define CUT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "view.h"
+
+struct cut_tree; /* keeps a pointer to the page */
+
+/* Builds the tree of a page: the same bits whatever the threads. Building costs about as much as
+ * summing 20,000 receivers' micro lights, and less than a slab of that size takes to bake or, as
+ * LogLuv, to load; a file beside the slab, 1.5 times its size, would take longer to read. */
+enum slab_result cut_build(const struct light_page *page, int threads, struct cut_tree **made,
+                           struct slab_error *error);
+void cut_free(struct cut_tree *tree); /* NULL allowed */
+
+/* Memory that the tree takes, in bytes: per st sample and node 52, with a third as many nodes as
+ * views: about 1.45 times the slab's samples. */
+double cut_bytes(const struct cut_tree *tree);
+
+struct cut_counts {
+  uint64_t nodes;   /* summed */
+  uint64_t visited; /* looked at */
+  double error;     /* predicted, of the last sum */
+};
+
+/* Scratch memory of one thread. */
+struct cut_work;
+struct cut_work *cut_work_make(void);      /* NULL: no memory */
+void cut_work_free(struct cut_work *work); /* NULL allowed */
+
+/* The light of the page of the tree, for a receiver who sees all of it. False: not done, the micro
+ * lights do it better. `floor` is an irradiance, or 0. */
+bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolerance, double floor,
+             struct cut_work *work, double irradiance[3], struct cut_counts *counts);
+
+#endif

@@ -1,0 +1,256 @@
+/* cut_error.c - how far a node is from the sum of its views (cut_tree.h), for receivers in front
+ * of each st sample. What a node or a view brings is a weighted sum over st samples, first along
+ * s, then along t. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cut_tree.h"
+#include "simd.h"
+#include "view.h"
+
+/* What the samples weigh for the receiver in front of one of them: hat functions, and hat
+ * functions times X. */
+struct weights {
+  int first, count;
+  float weight[2][CUT_TAPS];
+};
+
+struct cut_error_scratch {
+  simd_float4 *off;      /* node - views, for each sample */
+  simd_float4 *along[2]; /* sums along s */
+  struct weights *of[2]; /* along s and t */
+  uint8_t *code;
+  uint8_t *line; /* of codes */
+};
+
+struct cut_error_scratch *cut_error_scratch(const struct cut_tree *tree) {
+  struct cut_error_scratch *made = calloc(1, sizeof *made);
+  size_t texels = cut_texels(tree);
+  if (!made) return NULL;
+  made->off = aligned_alloc(sizeof(simd_float4), texels * sizeof(simd_float4));
+  made->code = calloc(texels, 1);
+  made->line = malloc(texels);
+  bool whole = made->off && made->code && made->line;
+  for (int k = 0; k < 2; ++k) {
+    made->along[k] = aligned_alloc(sizeof(simd_float4), texels * sizeof(simd_float4));
+    made->of[k] = calloc((size_t)tree->page->axes[k].far_count, sizeof *made->of[k]);
+    whole = whole && made->along[k] && made->of[k];
+  }
+  if (whole) return made;
+  cut_error_scratch_free(made);
+  return NULL;
+}
+
+void cut_error_scratch_free(struct cut_error_scratch *scratch) {
+  if (!scratch) return;
+  free(scratch->off);
+  free(scratch->code);
+  free(scratch->line);
+  for (int k = 0; k < 2; ++k) {
+    free(scratch->along[k]);
+    free(scratch->of[k]);
+  }
+  free(scratch);
+}
+
+/* The weights of `part`, as shares of `node`. */
+static void find_weights(const struct light_axis *axis, const struct cut_interval *node,
+                         const struct cut_interval *part, double rate, double offset,
+                         struct weights *weights) {
+  const double scale = 1 / node->half, unit = node->half / node->moment[0];
+  struct cut_sight sight = {
+      .rate = rate, .scale = scale, .limits = {-INFINITY, INFINITY}, .clipped = true};
+  for (int k = 0; k < axis->far_count; ++k) {
+    struct cut_taps taps;
+    sight.place = k + offset + rate * (part->center - node->center);
+    if (!cut_taps_find(part, &sight, axis->far_count, &taps)) taps.count = 0;
+    weights[k].first = taps.first;
+    weights[k].count = taps.count;
+    for (int tap = 0; tap < taps.count; ++tap)
+      for (int m = 0; m < 2; ++m)
+        weights[k].weight[m][tap] = (float)((double)taps.moment[m][tap] * unit);
+  }
+}
+
+/* along[l][k] += sum of samples of a row. */
+static void add_row(const float *row, const struct weights *weights, int count,
+                    simd_float4 *along) {
+  for (int k = 0; k < count; ++k) {
+    const float *from = row + 3 * weights[k].first;
+    simd_float4 sum = along[k];
+    for (int tap = 0; tap < weights[k].count; ++tap)
+      sum += SIMD_LOAD(simd_floats4, from + 3 * tap) * weights[k].weight[0][tap];
+    along[k] = sum;
+  }
+}
+
+static void add_node_row(const float *row, const struct weights *weights, int count,
+                         simd_float4 *along, simd_float4 *slope) {
+  for (int k = 0; k < count; ++k) {
+    const float *from = row + CUT_FLOATS * weights[k].first;
+    simd_float4 sum = {0}, other = {0};
+    for (int tap = 0; tap < weights[k].count; ++tap, from += CUT_FLOATS) {
+      float weight = weights[k].weight[0][tap];
+      sum += SIMD_LOAD(simd_floats4, from) * weight +
+             SIMD_LOAD(simd_floats4, from + 3) * weights[k].weight[1][tap];
+      other += SIMD_LOAD(simd_floats4, from + 6) * weight;
+    }
+    along[k] = sum;
+    slope[k] = other;
+  }
+}
+
+/* off += sign * the sum along t. */
+static void add_columns(const simd_float4 *along, const struct weights *weights, int moment,
+                        float sign, int width, int height, simd_float4 *off) {
+  for (int l = 0; l < height; ++l, off += width)
+    for (int tap = 0; tap < weights[l].count; ++tap) {
+      const simd_float4 *from = along + (weights[l].first + tap) * width;
+      float weight = sign * weights[l].weight[moment][tap];
+      for (int k = 0; k < width; ++k) off[k] += from[k] * weight;
+    }
+}
+
+static void find_off(const struct cut_tree *tree, int level, const int at[2], double w,
+                     double offset, struct cut_error_scratch *scratch) {
+  const struct light_axis *axes = tree->page->axes;
+  const struct view view = {.page = tree->page};
+  const int width = axes[0].far_count, height = axes[1].far_count, leaves = tree->levels - 1;
+  const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
+                                              &tree->axes[1].level[level][at[1]]};
+  const double rate[2] = {-w / axes[0].far_step, -w / axes[1].far_step};
+  size_t texels = cut_texels(tree);
+  const float *image =
+      tree->level[level].images + CUT_FLOATS * texels * cut_node_number(tree, level, at);
+  for (int k = 0; k < 2; ++k)
+    find_weights(&axes[k], node[k], node[k], rate[k], offset, scratch->of[k]);
+  for (int l = 0; l < height; ++l)
+    add_node_row(image + (size_t)l * (size_t)width * CUT_FLOATS, scratch->of[0], width,
+                 scratch->along[0] + l * width, scratch->along[1] + l * width);
+  for (size_t k = 0; k < texels; ++k) scratch->off[k] = (simd_float4){0};
+  for (int m = 0; m < 2; ++m)
+    add_columns(scratch->along[m], scratch->of[1], m, 1, width, height, scratch->off);
+  for (int j = node[1]->first; j <= node[1]->last; ++j) {
+    for (size_t k = 0; k < texels; ++k) scratch->along[0][k] = (simd_float4){0};
+    for (int i = node[0]->first; i <= node[0]->last; ++i) {
+      find_weights(&axes[0], node[0], &tree->axes[0].level[leaves][i], rate[0], offset,
+                   scratch->of[0]);
+      const float *from = tree->page->slab.rgb + view_offset(&view, 0, i, 0);
+      for (int l = 0; l < height; ++l)
+        add_row(from + view_offset(&view, 1, j, l), scratch->of[0], width,
+                scratch->along[0] + l * width);
+    }
+    find_weights(&axes[1], node[1], &tree->axes[1].level[leaves][j], rate[1], offset,
+                 scratch->of[1]);
+    add_columns(scratch->along[0], scratch->of[1], 0, -1, width, height, scratch->off);
+  }
+}
+
+static uint8_t encode(const struct cut_tree *tree, simd_float4 off) {
+  float most = fmaxf(fmaxf(fabsf(off[0]), fabsf(off[1])), fabsf(off[2]));
+  if (!(most > tree->error[1])) return most > 0;
+  int code =
+      CUT_CODES - 1 + (int)ceilf(log2f(most / tree->error[CUT_CODES - 1]) * (float)cut_code_steps);
+  return (uint8_t)(code < 1 ? 1 : code < CUT_CODES ? code : CUT_CODES - 1);
+}
+
+/* The largest code of the corners of each cell. */
+static uint8_t largest(const uint8_t *corner, int across, int up) {
+  uint8_t first = corner[0] > corner[across] ? corner[0] : corner[across];
+  uint8_t second = corner[up] > corner[up + across] ? corner[up] : corner[up + across];
+  return first > second ? first : second;
+}
+
+/* Encodes what is in `off`, where that is more than what is there. */
+static void encode_all(const struct cut_tree *tree, struct cut_error_scratch *scratch) {
+  size_t texels = cut_texels(tree);
+  for (size_t k = 0; k < texels; ++k) {
+    uint8_t code = encode(tree, scratch->off[k]);
+    if (code > scratch->code[k]) scratch->code[k] = code;
+  }
+}
+
+/* Stores codes; `out` is that of the first cell. */
+static void store(const struct cut_tree *tree, struct cut_error_scratch *scratch, uint8_t *out) {
+  const int width = tree->page->axes[0].far_count, height = tree->page->axes[1].far_count;
+  for (int l = 0; l < height; ++l)
+    for (int k = 0; k < width; ++k, out += sizeof(struct cut_estimate))
+      *out = largest(scratch->code + l * width + k, k + 1 < width, l + 1 < height ? width : 0);
+  memset(scratch->code, 0, cut_texels(tree));
+}
+
+/* The largest code within `reach` samples. */
+static void spread_codes(const struct cut_tree *tree, struct cut_error_scratch *scratch,
+                         int reach) {
+  const int size[2] = {tree->page->axes[0].far_count, tree->page->axes[1].far_count};
+  for (int axis = 0; axis < 2; ++axis) {
+    int step = axis ? size[0] : 1, other = axis ? 1 : size[0];
+    for (int m = 0; m < size[1 - axis]; ++m) {
+      uint8_t *first = scratch->code + m * other;
+      uint8_t *copy = scratch->line;
+      for (int k = 0; k < size[axis]; ++k) copy[k] = first[k * step];
+      for (int k = 0; k < size[axis]; ++k)
+        for (int n = k > reach ? k - reach : 0; n <= k + reach && n < size[axis]; ++n)
+          if (copy[n] > first[k * step]) first[k * step] = copy[n];
+    }
+  }
+}
+
+/* off = mean over the node's views of |view - node|. */
+static void find_part(const struct cut_tree *tree, int level, const int at[2],
+                      struct cut_error_scratch *scratch) {
+  const struct light_axis *axes = tree->page->axes;
+  const struct view view = {.page = tree->page};
+  const int width = axes[0].far_count, height = axes[1].far_count;
+  const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
+                                              &tree->axes[1].level[level][at[1]]};
+  const size_t texels = cut_texels(tree);
+  for (size_t k = 0; k < texels; ++k) scratch->off[k] = (simd_float4){0};
+  for (int j = node[1]->first; j <= node[1]->last; ++j)
+    for (int i = node[0]->first; i <= node[0]->last; ++i) {
+      const struct cut_interval *u = &tree->axes[0].level[tree->levels - 1][i];
+      const struct cut_interval *v = &tree->axes[1].level[tree->levels - 1][j];
+      const float x = (float)((u->center - node[0]->center) / node[0]->half);
+      const float y = (float)((v->center - node[1]->center) / node[1]->half);
+      const float share =
+          (float)(u->moment[0] * v->moment[0] / (node[0]->moment[0] * node[1]->moment[0]));
+      const float *from =
+          tree->level[level].images + CUT_FLOATS * texels * cut_node_number(tree, level, at);
+      simd_float4 *off = scratch->off;
+      for (int l = 0; l < height; ++l) {
+        const float *rgb =
+            tree->page->slab.rgb + view_offset(&view, 1, j, l) + view_offset(&view, 0, i, 0);
+        for (int k = 0; k < width; ++k, from += CUT_FLOATS, rgb += 3, ++off) {
+          simd_float4 d = SIMD_LOAD(simd_floats4, rgb) - SIMD_LOAD(simd_floats4, from) -
+                          SIMD_LOAD(simd_floats4, from + 3) * x -
+                          SIMD_LOAD(simd_floats4, from + 6) * y;
+          simd_float4 minus = -d;
+          for (int c = 0; c < 3; ++c) (*off)[c] += (d[c] > minus[c] ? d[c] : minus[c]) * share;
+        }
+      }
+    }
+}
+
+void cut_error_measure(struct cut_tree *tree, int level, const int at[2],
+                       struct cut_error_scratch *scratch) {
+  const double widest = fmax(tree->axes[0].widest[level], tree->axes[1].widest[level]);
+  struct cut_estimate *out =
+      tree->level[level].estimates + cut_texels(tree) * cut_node_number(tree, level, at);
+  for (int side = 0; side < (tree->page->axes[0].kappa > 0 ? 2 : 1); ++side)
+    for (int spread = 0; spread < CUT_SPREADS; ++spread) {
+      const double width = cut_narrowest * exp2(spread), aside = fmin(width / 4, 0.5);
+      for (int place = 0; place < (width < 2 ? 3 : 2); ++place) {
+        find_off(tree, level, at, (side ? -width : width) / widest,
+                 place == 2 ? -aside : place * aside, scratch);
+        encode_all(tree, scratch);
+      }
+      store(tree, scratch, &out->error[side][spread]);
+    }
+  find_part(tree, level, at, scratch);
+  encode_all(tree, scratch);
+  store(tree, scratch, &out->part);
+  encode_all(tree, scratch);
+  spread_codes(tree, scratch, (int)cut_widest / 2);
+  store(tree, scratch, &out->edge);
+}

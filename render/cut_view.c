@@ -1,0 +1,266 @@
+/* cut_view.c - see cut_view.h. */
+#include "cut_view.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "simd.h"
+
+/* What the expansion of the kernel leaves out, relative to a node's light. Its third and fourth
+ * order, in units of the node's reach over its distance: odd orders nearly cancel over a node,
+ * unless the window's edge cuts it. Its mixed second order, in units of the product of the
+ * reaches: it cancels for radiance that is the same all over the node. And what the kernel's
+ * second order makes of views that differ from the node. Measured to be enough on smooth, rough
+ * and cut lamps. */
+static const double third_order = 0.5, cut_third_order = 8, fourth_order = 0.3;
+static const double mixed_order = 0.16, cut_mixed_order = 0.6, part_order = 1;
+
+void cut_view_free(struct cut_view *view) {
+  free(view->spots);
+  free(view->taps);
+  *view = (struct cut_view){0};
+}
+
+bool cut_view_begin(const struct cut_tree *tree, const struct view *view, struct cut_view *made) {
+  const struct light_axis *axes = view->page->axes;
+  const double *n = view->kernel.normal;
+  size_t count = 0;
+  for (int level = 0; level < tree->levels; ++level) {
+    count += (size_t)tree->axes[0].count[level] + (size_t)tree->axes[1].count[level];
+    made->level[level].spots[0] = NULL;
+  }
+  if (count > made->room) {
+    cut_view_free(made);
+    made->spots = malloc(count * sizeof *made->spots);
+    made->taps = malloc(count * sizeof *made->taps);
+    if (!made->spots || !made->taps) return false;
+    made->room = count;
+  }
+  made->tree = tree;
+  made->view = view;
+  made->taps_used = 0;
+  made->per_height = 1 / view->height;
+  made->w = made->per_height - axes[0].kappa;
+  made->tilt = sqrt(n[0] * n[0] + n[1] * n[1]);
+  for (int axis = 0; axis < 2; ++axis) made->rate[axis] = -made->w / axes[axis].far_step;
+  return true;
+}
+
+static void set_spots(const struct cut_view *view, int level, int axis, struct cut_spot *spot) {
+  const struct light_axis *along = &view->view->page->axes[axis];
+  const struct cut_axis *tree = &view->tree->axes[axis];
+  const double q = view->view->foot[axis], most = along->far_count - 0.5;
+  const double shift = along->kappa * q - along->far_low,
+               rate = along->kappa * view->view->height - 1;
+  const double per_step = 1 / along->far_step, speed = fabs(view->rate[axis]);
+  const struct cut_interval *interval = tree->level[level];
+  for (int k = 0; k < tree->count[level]; ++k, ++spot, ++interval) {
+    spot->slope = (interval->center - q) * view->per_height;
+    spot->place = (shift + rate * spot->slope) * per_step - 0.5;
+    spot->size = interval->moment[0] * view->per_height;
+    double reach = speed * interval->half, low = spot->place - reach, high = spot->place + reach;
+    spot->seen = high > -0.5 && low < most;
+    spot->whole = low >= -0.5 && high <= most;
+    spot->cell = !(spot->place > 0)                   ? 0
+                 : spot->place < along->far_count - 1 ? (int)spot->place
+                                                      : along->far_count - 1;
+    spot->taps = NULL;
+  }
+}
+
+void cut_view_prepare(struct cut_view *view, int number) {
+  struct cut_view_level *level = &view->level[number];
+  struct cut_spot *spots = view->spots;
+  const struct cut_axis *axes = view->tree->axes;
+  double spread = 0, width = cut_narrowest;
+  if (level->spots[0]) return;
+  for (int k = 0; k < number; ++k) spots += axes[0].count[k] + axes[1].count[k];
+  level->samples = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    double wide = axes[axis].widest[number] * fabs(view->w);
+    if (wide > spread) spread = wide;
+    level->samples *= 2 + wide;
+    level->reach[axis] = axes[axis].reach[number] * view->per_height;
+    level->spots[axis] = spots;
+    set_spots(view, number, axis, spots);
+    spots += axes[axis].count[number];
+  }
+  level->wide = !(spread <= cut_widest);
+  level->shrink = spread < width ? spread / width : 1;
+  level->spread = 0;
+  for (; spread > 2 * width && level->spread < CUT_SPREADS - 2; width *= 2) ++level->spread;
+}
+
+/* The larger of the errors that were measured at widths on both sides of the wanted: between
+ * them it can pass through 0. */
+static double spread_error(const struct cut_view *view, const struct cut_view_level *level,
+                           const struct cut_estimate *estimate) {
+  const uint8_t *code = estimate->error[view->w < 0] + level->spread;
+  return (double)view->tree->error[code[0] > code[1] ? code[0] : code[1]] * level->shrink;
+}
+
+static double largest_of(const float *rgb) {
+  float most = rgb[0] > rgb[1] ? rgb[0] : rgb[1];
+  return (double)(most > rgb[2] ? most : rgb[2]);
+}
+
+static double larger(double a, double b) {
+  return a > b ? a : b;
+}
+
+bool cut_view_estimate(const struct cut_view *view, int number, const int at[2],
+                       struct cut_node *node) {
+  const struct cut_tree *tree = view->tree;
+  const struct cut_view_level *level = &view->level[number];
+  const struct cut_spot *const spot[2] = {&level->spots[0][at[0]], &level->spots[1][at[1]]};
+  if (!spot[0]->seen || !spot[1]->seen) return false;
+  const struct kernel *kernel = &view->view->kernel;
+  const bool whole = spot[0]->whole && spot[1]->whole;
+  const double x = spot[0]->slope, y = spot[1]->slope, square = 1 + x * x + y * y;
+  const double g = kernel_height(kernel, x, y), per_square = 1 / square, per_g = 1 / g;
+  const double value = g * per_square * per_square * spot[0]->size * spot[1]->size;
+  const double reach = larger(level->reach[0], level->reach[1]), root = sqrt(square);
+  const double flat = reach * reach * per_square, narrow = reach * root * per_square;
+  const double tilt = 1 + view->tilt * root * per_g;
+  const double mixed =
+      8 * x * y * per_square * per_square - kernel->normal[0] * kernel->normal[1] * per_g * per_g;
+  double part = 0;
+  *node = (struct cut_node){.level = number, .at = {at[0], at[1]}};
+  node->bend =
+      flat * ((whole ? third_order : cut_third_order) * narrow * tilt + fourth_order * flat) +
+      (whole ? mixed_order : cut_mixed_order) * fabs(mixed) * level->reach[0] * level->reach[1];
+  if (number == tree->levels - 1) {
+    node->light =
+        value * largest_of(tree->page->slab.rgb + view_offset(view->view, 1, at[1], spot[1]->cell) +
+                           view_offset(view->view, 0, at[0], spot[0]->cell));
+  } else {
+    const struct cut_estimate *estimate =
+        tree->level[number].estimates + cut_texels(tree) * cut_node_number(tree, number, at) +
+        (size_t)spot[1]->cell * (size_t)tree->page->axes[0].far_count + (size_t)spot[0]->cell;
+    double edge = whole ? 0 : (double)tree->error[estimate->edge];
+    part = (double)tree->error[estimate->part];
+    node->light = value * (double)estimate->mean;
+    node->spread = value * larger(spread_error(view, level, estimate), edge);
+  }
+  node->bent = fabs(node->light) * node->bend + value * part_order * part * flat * tilt;
+  return true;
+}
+
+/* ---- The light of a node ---- */
+
+/* The kernel's relative derivatives along an axis at a node's center, the second one halved. */
+struct bend {
+  double first, second;
+};
+
+static double find_bends(const struct kernel *kernel, const double at[2], struct bend bends[2]) {
+  const double g = kernel_height(kernel, at[0], at[1]);
+  const double per_g = 1 / g, per_square = 1 / (1 + at[0] * at[0] + at[1] * at[1]);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double n = kernel->normal[axis] * per_g, p = at[axis] * per_square;
+    bends[axis] = (struct bend){n - 4 * p, -4 * n * p - 2 * per_square + 12 * p * p};
+  }
+  return g * per_square * per_square;
+}
+
+static const struct cut_taps *find_taps(struct cut_view *view, int level, int axis, int at) {
+  struct cut_spot *spot = &view->level[level].spots[axis][at];
+  if (spot->taps) return spot->taps;
+  const struct cut_sight sight = {.place = spot->place,
+                                  .rate = view->rate[axis],
+                                  .scale = view->per_height,
+                                  .limits = {-INFINITY, INFINITY},
+                                  .clipped = !spot->whole};
+  spot->taps = &view->taps[view->taps_used++];
+  if (!cut_taps_find(&view->tree->axes[axis].level[level][at], &sight,
+                     view->view->page->axes[axis].far_count, spot->taps))
+    spot->taps->count = -1;
+  return spot->taps;
+}
+
+/* What the st samples weigh along one axis: in M, and in the slope of this axis. */
+struct factors {
+  int first, count;
+  float mean[CUT_TAPS], slope[CUT_TAPS];
+};
+
+static bool find_factors(struct cut_view *view, const struct cut_node *node, int axis,
+                         const struct bend *bend, struct factors *factors) {
+  const struct cut_taps *taps = find_taps(view, node->level, axis, node->at[axis]);
+  if (taps->count < 0) return false;
+  const double unit =
+      view->view->height * view->tree->axes[axis].level[node->level][node->at[axis]].per_half;
+  const float first = (float)bend->first, second = (float)bend->second, per = (float)unit;
+  factors->first = taps->first;
+  factors->count = taps->count;
+  for (int k = 0; k < taps->count; k += 4) {
+    simd_float4 m[CUT_MOMENTS];
+    for (int power = 0; power < CUT_MOMENTS; ++power)
+      m[power] = SIMD_LOAD(simd_floats4, taps->moment[power] + k);
+    simd_float4 mean = m[0] + m[1] * first + m[2] * second;
+    simd_float4 slope = (m[1] + m[2] * first + m[3] * second) * per;
+    memcpy(factors->mean + k, &mean, sizeof mean);
+    memcpy(factors->slope + k, &slope, sizeof slope);
+  }
+  return true;
+}
+
+static simd_float4 node_light(const float *image, size_t row, const struct factors *u,
+                              const struct factors *v) {
+  const float *from = image + row * (size_t)v->first + (size_t)(CUT_FLOATS * u->first);
+  simd_float4 sum = {0};
+  for (int l = 0; l < v->count; ++l, from += row) {
+    const float *texel = from;
+    simd_float4 mean = {0}, slope = {0};
+    for (int k = 0; k < u->count; ++k, texel += CUT_FLOATS) {
+      mean += SIMD_LOAD(simd_floats4, texel) * u->mean[k] +
+              SIMD_LOAD(simd_floats4, texel + 3) * u->slope[k];
+      slope += SIMD_LOAD(simd_floats4, texel + 6) * u->mean[k];
+    }
+    sum += mean * v->mean[l] + slope * v->slope[l];
+  }
+  return sum;
+}
+
+static simd_float4 view_light(const float *image, size_t row, const struct factors *u,
+                              const struct factors *v) {
+  const float *from = image + row * (size_t)v->first + (size_t)(3 * u->first);
+  simd_float4 sum = {0};
+  for (int l = 0; l < v->count; ++l, from += row) {
+    simd_float4 mean = {0};
+    for (int k = 0; k < u->count; ++k) mean += SIMD_LOAD(simd_floats4, from + 3 * k) * u->mean[k];
+    sum += mean * v->mean[l];
+  }
+  return sum;
+}
+
+bool cut_view_light(struct cut_view *view, const struct cut_node *node, double rgb[3],
+                    double *error) {
+  const struct cut_tree *tree = view->tree;
+  const struct light_page *page = tree->page;
+  const struct cut_view_level *level = &view->level[node->level];
+  const double at[2] = {level->spots[0][node->at[0]].slope, level->spots[1][node->at[1]].slope};
+  struct bend bends[2];
+  struct factors factors[2];
+  double value = find_bends(&view->view->kernel, at, bends), most = 0;
+  for (int axis = 0; axis < 2; ++axis)
+    if (!find_factors(view, node, axis, &bends[axis], &factors[axis])) return false;
+  simd_float4 light;
+  if (node->level == tree->levels - 1)
+    light = view_light(page->slab.rgb + view_offset(view->view, 1, node->at[1], 0) +
+                           view_offset(view->view, 0, node->at[0], 0),
+                       3 * (size_t)slab_width(&page->slab), &factors[0], &factors[1]);
+  else
+    light =
+        node_light(tree->level[node->level].images +
+                       CUT_FLOATS * cut_texels(tree) * cut_node_number(tree, node->level, node->at),
+                   (size_t)(CUT_FLOATS * page->axes[0].far_count), &factors[0], &factors[1]);
+  for (int c = 0; c < 3; ++c) {
+    double more = value * (double)light[c];
+    rgb[c] += more;
+    most = larger(most, fabs(more));
+  }
+  if (most > fabs(node->light)) *error += node->bend * (most - fabs(node->light));
+  return true;
+}

@@ -1,0 +1,359 @@
+/* test_cut.c - the method cut against the reference: errors within the tolerance for lamps that
+ * are smooth, have thin peaks or sharp edges, wherever the receivers are; what it costs; the
+ * hand-over to micro lights. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "cut.h"
+#include "gather.h"
+#include "vector.h"
+
+enum { COUNT = 1000, TILE = 64 };
+static const double window = 1.5;
+
+enum lamp { SMOOTH, PEAKS, EDGES, CONSTANT, LAMPS };
+
+static double radiance(enum lamp lamp, const double at[4]) {
+  double s = at[2] - at[0], t = at[3] - at[1] - 0.3;
+  switch (lamp) {
+  case SMOOTH:
+    return exp(-2 * (at[2] * at[2] + at[3] * at[3]));
+  case PEAKS:
+    return exp(-200 * (s * s + t * t));
+  case EDGES:
+    return at[0] > 0.1 && at[2] < 0.2;
+  default:
+    return 1;
+  }
+}
+
+static double uniform(uint64_t *seed) {
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*seed >> 11) * 0x1p-53;
+}
+
+/* One page along z at the origin, with an aperture of 1 x 1. */
+struct lit {
+  struct light light;
+  struct light_page page;
+  struct gather_aids aids;
+};
+
+static void fill(struct lit *lit, enum lamp lamp, double gain) {
+  static const double tint[3] = {1, 0.8, 0.3};
+  struct slab *slab = &lit->page.slab;
+  size_t count = slab_sample_count(slab);
+  for (size_t p = 0; p < count; ++p) {
+    int index[SLAB_AXES];
+    double at[SLAB_AXES];
+    slab_locate(slab, p, index);
+    for (int axis = 0; axis < SLAB_AXES; ++axis) at[axis] = slab_position(slab, axis, index[axis]);
+    double value = gain * radiance(lamp, at);
+    for (int c = 0; c < 3; ++c)
+      slab->rgb[3 * p + (size_t)c] = value > 1e-9 ? (float)(tint[c] * value) : 0;
+  }
+}
+
+static void make(struct lit *lit, enum lamp lamp, const int samples[SLAB_AXES], double distance,
+                 int threads) {
+  struct slab_error error;
+  memset(lit, 0, sizeof *lit);
+  lit->page =
+      (struct light_page){.slab = slab_default(), .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  struct slab *slab = &lit->page.slab;
+  memcpy(slab->samples, samples, sizeof slab->samples);
+  slab->u[0] = slab->v[1] = slab->normal[2] = 1;
+  slab->u[1] = slab->u[2] = slab->v[0] = slab->v[2] = slab->normal[0] = slab->normal[1] = 0;
+  slab->st_distance = distance;
+  for (int k = 0; k < 4; ++k) slab->st_window[k] = k % 2 ? window : -window;
+  for (int k = 0; k < 2; ++k)
+    lit->page.axes[k] = (struct light_axis){.near_count = samples[k],
+                                            .far_count = samples[2 + k],
+                                            .half = 0.5,
+                                            .near_step = 1.0 / samples[k],
+                                            .far_low = -window,
+                                            .far_high = window,
+                                            .far_step = 2 * window / samples[2 + k],
+                                            .kappa = 1 / distance};
+  assert_int_equal(slab_alloc(slab, &error), SLAB_OK);
+  fill(lit, lamp, 1);
+  assert_int_equal(light_page_set_samples(&lit->page, &error), SLAB_OK);
+  lit->light = (struct light){.count = 1, .pages = &lit->page, .gain = 1, .scale = 1};
+  assert_int_equal(gather_aids_make(&lit->light, 1, GATHER_CUT, threads, &lit->aids, &error),
+                   SLAB_OK);
+}
+
+static void release(struct lit *lit) {
+  gather_aids_free(&lit->aids);
+  light_page_free(&lit->page);
+}
+
+/* Through a point of the aperture and one of the window or a little beside it, turned towards
+ * the lamp more or less. */
+static void make_receivers(struct receiver *receivers, int count, double nearest, double farthest,
+                           double distance) {
+  uint64_t seed = 7;
+  for (int k = 0; k < count; ++k) {
+    double z = nearest * pow(farthest / nearest, uniform(&seed)), p[3], n[3];
+    for (int c = 0; c < 2; ++c) {
+      double a = uniform(&seed) - 0.5, s = window * 1.1 * (2 * uniform(&seed) - 1);
+      p[c] = s * z - (z / distance - 1) * a;
+    }
+    p[2] = z;
+    for (int c = 0; c < 3; ++c) n[c] = -p[c] / vector_length(p) + uniform(&seed) - 0.5;
+    vector_normalise(n);
+    receivers[k] = (struct receiver){.index = (uint64_t)k};
+    memcpy(receivers[k].position, p, sizeof p);
+    memcpy(receivers[k].normal, n, sizeof n);
+    memcpy(receivers[k].lift, n, sizeof n);
+  }
+}
+
+static void sum(const struct lit *lit, enum gather_method method, double tolerance,
+                const struct receiver *receivers, int count, struct gathered *gathered) {
+  struct slab_error error;
+  struct gather *gather;
+  const struct gather_settings settings = {.lights = &lit->light,
+                                           .light_count = 1,
+                                           .aids = method == GATHER_CUT ? &lit->aids : NULL,
+                                           .method = method,
+                                           .tolerance = tolerance,
+                                           .level = -1};
+  assert_int_equal(gather_create(&settings, &gather, &error), SLAB_OK);
+  for (int k = 0; k < count; k += TILE)
+    assert_int_equal(gather_light(gather, receivers + k, count - k < TILE ? count - k : TILE,
+                                  gathered + k, &error),
+                     SLAB_OK);
+  assert_true(gather_counts(gather)->error <= tolerance || method != GATHER_CUT);
+  gather_free(gather);
+}
+
+static double largest(const double rgb[3]) {
+  return fmax(fmax(rgb[0], rgb[1]), rgb[2]);
+}
+
+/* The largest error, relative as cut.h says, with a floor of 1e-4 of the largest receiver's. */
+static double worst_error(const struct gathered *got, const struct gathered *exact, int count) {
+  double most = 0, worst = 0;
+  for (int k = 0; k < count; ++k) most = fmax(most, largest(exact[k].irradiance));
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < 3; ++c) {
+      double off = fabs(got[k].irradiance[c] - exact[k].irradiance[c]);
+      assert_true(isfinite(off));
+      if (off > 0) worst = fmax(worst, off / fmax(largest(exact[k].irradiance), 1e-4 * most));
+    }
+  return worst;
+}
+
+static const struct scene {
+  const char *name;
+  double nearest, farthest;
+} scenes[] = {{"near", 0.3, 2}, {"office", 4, 30}, {"far", 50, 300}};
+enum { SCENES = sizeof scenes / sizeof scenes[0] };
+
+static const int ordinary[SLAB_AXES] = {16, 16, 64, 64};
+
+/* Nodes a receiver, of those that the cut takes. */
+static double nodes(const struct lit *lit, double tolerance, const struct receiver *receivers,
+                    int count, int *taken) {
+  struct cut_counts counts = {0};
+  struct cut_work *work = cut_work_make();
+  *taken = 0;
+  for (int k = 0; k < count; ++k) {
+    struct view view;
+    double irradiance[3];
+    assert_true(view_find(&lit->page, &receivers[k], &view));
+    if (!cut_sum(lit->aids.trees[0], &view, tolerance, 0, work, irradiance, &counts)) continue;
+    assert_true(counts.error <= tolerance);
+    ++*taken;
+  }
+  cut_work_free(work);
+  return *taken ? (double)counts.nodes / *taken : 0;
+}
+
+static void hold_lamps(double distance) {
+  struct receiver receivers[COUNT];
+  struct gathered exact[COUNT], got[COUNT];
+  for (int lamp = SMOOTH; lamp <= EDGES; ++lamp) {
+    struct lit lit;
+    make(&lit, (enum lamp)lamp, ordinary, distance, 2);
+    for (int s = 0; s < SCENES; ++s) {
+      make_receivers(receivers, COUNT, scenes[s].nearest, scenes[s].farthest, distance);
+      sum(&lit, GATHER_REFERENCE, 1e-7, receivers, COUNT, exact);
+      for (int digit = 2; digit <= 3; ++digit) {
+        const double tolerance = digit == 2 ? 1e-2 : 1e-3;
+        int taken;
+        sum(&lit, GATHER_CUT, tolerance, receivers, COUNT, got);
+        double worst = worst_error(got, exact, COUNT);
+        double each = nodes(&lit, tolerance, receivers, COUNT, &taken);
+        print_message("lamp %d %-6s %.0e: %.1e, %.1f nodes for %d of %d\n", lamp, scenes[s].name,
+                      tolerance, worst, each, taken, COUNT);
+        assert_true(worst <= tolerance);
+      }
+    }
+    release(&lit);
+  }
+}
+
+static void test_tolerance(void **state) {
+  (void)state;
+  hold_lamps(INFINITY);
+}
+
+static void test_tolerance_st_plane(void **state) {
+  (void)state;
+  hold_lamps(3);
+}
+
+/* Few nodes, and fewer the farther away. */
+static void test_work(void **state) {
+  (void)state;
+  static const double most[][SCENES] = {{20, 1.1, 1.01}, {20, 6, 3}};
+  struct receiver receivers[COUNT];
+  for (int lamp = SMOOTH; lamp <= PEAKS; ++lamp) {
+    struct lit lit;
+    double before = INFINITY;
+    make(&lit, (enum lamp)lamp, ordinary, INFINITY, 2);
+    for (int s = 0; s < SCENES; ++s) {
+      int taken;
+      make_receivers(receivers, COUNT, scenes[s].nearest, scenes[s].farthest, INFINITY);
+      double each = nodes(&lit, 1e-2, receivers, COUNT, &taken);
+      assert_true(each <= most[lamp][s] && each <= 1.2 * before);
+      assert_true(s == 0 || taken > COUNT / 2);
+      before = each;
+    }
+    release(&lit);
+  }
+}
+
+/* Away from the lamp: micro lights, then the cut; no step where they meet. */
+static void test_hand_over(void **state) {
+  (void)state;
+  const double tolerance = 1e-2;
+  struct receiver receivers[COUNT];
+  struct gathered exact[COUNT], got[COUNT];
+  struct lit lit;
+  make(&lit, SMOOTH, ordinary, INFINITY, 2);
+  for (int k = 0; k < COUNT; ++k) {
+    double z = 0.2 * pow(100, (double)k / COUNT);
+    receivers[k] = (struct receiver){.position = {0.1 * z, -0.3 * z, z},
+                                     .normal = {0, 0, -1},
+                                     .lift = {0, 0, -1},
+                                     .index = (uint64_t)k};
+  }
+  sum(&lit, GATHER_REFERENCE, 1e-7, receivers, COUNT, exact);
+  sum(&lit, GATHER_CUT, tolerance, receivers, COUNT, got);
+  int taken;
+  nodes(&lit, tolerance, receivers, COUNT, &taken);
+  assert_true(taken > COUNT / 4 && taken < COUNT);
+  assert_true(worst_error(got, exact, COUNT) <= tolerance);
+  nodes(&lit, tolerance, receivers, 1, &taken);
+  assert_int_equal(taken, 0);
+  release(&lit);
+}
+
+/* Sizes that do not halve, axes of one sample, any normal. */
+static void test_sizes(void **state) {
+  (void)state;
+  static const int sizes[][SLAB_AXES] = {{5, 3, 7, 4}, {1, 1, 8, 8},   {6, 5, 1, 1},
+                                         {1, 3, 4, 1}, {2, 9, 33, 17}, {1, 1, 1, 1}};
+  struct receiver receivers[COUNT];
+  struct gathered exact[COUNT], got[COUNT];
+  for (int k = 0; k < 2 * (int)(sizeof sizes / sizeof sizes[0]); ++k) {
+    struct lit lit;
+    double distance = k % 2 ? 2 : INFINITY;
+    make(&lit, EDGES, sizes[k / 2], distance, 2);
+    make_receivers(receivers, COUNT, 0.3, 100, distance);
+    for (int r = 0; r < COUNT; r += 3) receivers[r].normal[2] *= -1;
+    sum(&lit, GATHER_REFERENCE, 1e-7, receivers, COUNT, exact);
+    sum(&lit, GATHER_CUT, 1e-3, receivers, COUNT, got);
+    assert_true(worst_error(got, exact, COUNT) <= 1e-3);
+    release(&lit);
+  }
+}
+
+/* Powers of two in the samples change nothing but the sum's exponent. */
+static void test_linear(void **state) {
+  (void)state;
+  struct receiver receivers[COUNT];
+  struct gathered once[COUNT], more[COUNT];
+  struct slab_error error;
+  struct lit lit;
+  make(&lit, PEAKS, ordinary, INFINITY, 2);
+  make_receivers(receivers, COUNT, 2, 100, INFINITY);
+  sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, once);
+  size_t floats = 3 * slab_sample_count(&lit.page.slab);
+  for (size_t k = 0; k < floats; ++k) lit.page.slab.rgb[k] *= 1024;
+  gather_aids_free(&lit.aids);
+  assert_int_equal(gather_aids_make(&lit.light, 1, GATHER_CUT, 2, &lit.aids, &error), SLAB_OK);
+  sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, more);
+  for (int k = 0; k < COUNT; ++k)
+    for (int c = 0; c < 3; ++c) assert_true(more[k].irradiance[c] == 1024 * once[k].irradiance[c]);
+  release(&lit);
+}
+
+static void test_threads(void **state) {
+  (void)state;
+  struct receiver receivers[COUNT];
+  struct gathered all[2][COUNT];
+  struct lit lit;
+  make_receivers(receivers, COUNT, 2, 100, 3);
+  for (int threads = 1; threads <= 5; threads += 4) {
+    make(&lit, PEAKS, ordinary, 3, threads);
+    sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, all[threads > 1]);
+    release(&lit);
+  }
+  assert_memory_equal(all[0], all[1], sizeof all[0]);
+}
+
+/* As cut.h states. */
+static void test_memory(void **state) {
+  (void)state;
+  struct lit lit;
+  make(&lit, CONSTANT, ordinary, INFINITY, 2);
+  double stated = 52.0 * (1 + 4 + 16 + 64) * 64 * 64;
+  assert_true(fabs(cut_bytes(lit.aids.trees[0]) / stated - 1) < 0.01);
+  release(&lit);
+}
+
+/* Highlights, and aperture that the tangent plane cuts, are left to the micro lights. */
+static void test_refuses(void **state) {
+  (void)state;
+  struct lit lit;
+  struct cut_counts counts = {0};
+  struct cut_work *work = cut_work_make();
+  make(&lit, CONSTANT, ordinary, INFINITY, 2);
+  struct receiver receiver = {.position = {0, 0, 20}, .normal = {0, 0, -1}, .eye = {0, 0, -1}};
+  static const double along[3] = {1, 0, 0};
+  for (int kind = 0; kind < 3; ++kind) {
+    struct view view;
+    double irradiance[3];
+    receiver.shininess = kind == 1 ? 10 : 0;
+    if (kind == 2) memcpy(receiver.normal, along, sizeof along);
+    assert_true(view_find(&lit.page, &receiver, &view));
+    assert_int_equal(cut_sum(lit.aids.trees[0], &view, 1e-2, 0, work, irradiance, &counts),
+                     kind == 0);
+    if (kind == 0) assert_true(fabs(irradiance[0] * 20 * 20 - 1) < 0.01);
+  }
+  assert_int_equal(counts.nodes, 1);
+  cut_work_free(work);
+  release(&lit);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_tolerance), cmocka_unit_test(test_tolerance_st_plane),
+      cmocka_unit_test(test_work),      cmocka_unit_test(test_hand_over),
+      cmocka_unit_test(test_sizes),     cmocka_unit_test(test_linear),
+      cmocka_unit_test(test_threads),   cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_refuses),
+  };
+  return cmocka_run_group_tests_name("cut", tests, NULL, NULL);
+}
