@@ -21,6 +21,8 @@ enum gather_method {
                           (section 4.3), and POV-Ray's lights of the sheet include */
   GATHER_LEVELS,       /* the paper's hierarchy (section 4.2), kept in memory; pi on each level */
   GATHER_PAPER_LEVELS, /* the same as published: averaged on the fly, one random sample */
+  GATHER_CUT,          /* blocks of views, as few as the tolerance allows (cut.h); micro lights
+                          where that is no faster, and behind occluders */
   GATHER_METHODS
 };
 
@@ -59,7 +61,8 @@ struct gather_counts {
  * through all lights. */
 struct gather_aids {
   int pages;
-  struct levels *levels; /* [pages], methods levels; NULL for others; owned */
+  struct levels *levels;   /* [pages], methods levels; NULL for others; owned */
+  struct cut_tree **trees; /* [pages], method cut; NULL for others; owned */
 };
 
 /* Makes what the method needs. */

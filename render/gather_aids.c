@@ -1,27 +1,34 @@
 /* gather_aids.c - what methods make of the slabs before the first receiver. */
 #include <stdlib.h>
 
+#include "cut.h"
 #include "gather.h"
 #include "levels.h"
 
 enum slab_result gather_aids_make(const struct light *lights, int count, enum gather_method method,
                                   int threads, struct gather_aids *aids, struct slab_error *error) {
-  (void)threads;
   enum slab_result result = SLAB_OK;
   *aids = (struct gather_aids){0};
   for (int l = 0; l < count; ++l) aids->pages += lights[l].count;
-  if (method != GATHER_LEVELS && method != GATHER_PAPER_LEVELS) return SLAB_OK;
-  aids->levels = calloc((size_t)aids->pages, sizeof *aids->levels);
-  if (!aids->levels) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  bool levels = method == GATHER_LEVELS || method == GATHER_PAPER_LEVELS;
+  if (!levels && method != GATHER_CUT) return SLAB_OK;
+  if (levels)
+    aids->levels = calloc((size_t)aids->pages, sizeof *aids->levels);
+  else
+    aids->trees = calloc((size_t)aids->pages, sizeof *aids->trees);
+  if (!aids->levels && !aids->trees) return slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int l = 0, number = 0; l < count; ++l)
     for (int page = 0; page < lights[l].count && result == SLAB_OK; ++page, ++number)
-      result = levels_build(&lights[l].pages[page], &aids->levels[number], error);
+      result = levels ? levels_build(&lights[l].pages[page], &aids->levels[number], error)
+                      : cut_build(&lights[l].pages[page], threads, &aids->trees[number], error);
   if (result != SLAB_OK) gather_aids_free(aids);
   return result;
 }
 
 void gather_aids_free(struct gather_aids *aids) {
   for (int page = 0; aids->levels && page < aids->pages; ++page) levels_free(&aids->levels[page]);
+  for (int page = 0; aids->trees && page < aids->pages; ++page) cut_free(aids->trees[page]);
   free(aids->levels);
+  free(aids->trees);
   *aids = (struct gather_aids){0};
 }

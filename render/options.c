@@ -171,8 +171,7 @@ static const struct argp_option light_options[] = {
 static const struct argp_option sum_options[] = {
     {"method", OPTION_METHOD, "METHOD", 0,
      "How light is summed: auto (the default), reference, paper, midpoint, pi, closed, views, "
-     "levels "
-     "or paper-levels",
+     "levels, paper-levels or cut",
      0},
     {"tolerance", OPTION_TOLERANCE, "T", 0,
      "Relative error that is allowed (default 0.01; 1e-6 for reference)", 0},
