@@ -171,8 +171,8 @@ static bool start(struct cut_work *work, double tolerance) {
 
 /* ---- The sum ---- */
 
-/* What the micro lights cost, summed by pi or, where gather.c would not take that, by Gauss
- * rules. */
+/* What the micro lights cost, summed by pi or, where gather.c (cut_caution) would not take that, by
+ * Gauss rules. */
 static double budget(const struct cut_view *sees, double tolerance) {
   double strips[2], half = 0;
   for (int axis = 0; axis < 2; ++axis) {
@@ -186,7 +186,7 @@ static double budget(const struct cut_view *sees, double tolerance) {
   }
   const double error = 5.0 / 3 * half * half + half / 2 / sqrt(fmin(strips[0], strips[1]));
   const double cost = light_cost * strips[0] * strips[1] + strip_cost * (strips[0] + strips[1]);
-  return 2.5 * error <= tolerance ? cost : gauss * cost;
+  return 3.5 * error <= tolerance ? cost : gauss * cost;
 }
 
 /* Whether all of the aperture is above the tangent plane. */

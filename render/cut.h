@@ -14,7 +14,8 @@
  *
  * The micro lights do it instead, and cut_sum returns false, for glossy receivers, where the
  * tangent plane cuts the aperture, where not even single views are exact enough, and where the
- * cut would be no faster, of which there is little hope near the aperture of a rough lamp. Both
+ * cut is expected to be no faster, as near the aperture or for rough lamps. Finding that out can
+ * cost a fifth of the micro lights. Both
  * sides keep the tolerance, so nothing is seen where one hands over to the other.
  *
  * The error of a page's light: the largest of the channels' absolute errors, relative to the
@@ -30,9 +31,10 @@
 
 struct cut_tree; /* keeps a pointer to the page */
 
-/* Builds the tree of a page: the same bits whatever the threads. Building costs about as much as
- * summing 20,000 receivers' micro lights, and less than a slab of that size takes to bake or, as
- * LogLuv, to load; a file beside the slab, 1.5 times its size, would take longer to read. */
+/* Builds the tree of a page: the same bits whatever the threads. Nearly all of the time goes into
+ * measuring errors: 0.5 s of CPU for 16 x 16 x 64 x 64 samples, 3 s for 32 x 32 x 64 x 64, what
+ * 100,000 receivers' micro lights take. Loading such slabs takes 0.07 s and 0.3 s, so a file
+ * beside the slab would pay for small pictures; there is none yet. */
 enum slab_result cut_build(const struct light_page *page, int threads, struct cut_tree **made,
                            struct slab_error *error);
 void cut_free(struct cut_tree *tree); /* NULL allowed */

@@ -158,8 +158,8 @@ static double pi_error(const struct strips strips[2], double shininess) {
   return curvature * half * half + slope * half / 2 / sqrt(fewest);
 }
 
-/* Thin peaks at the aperture's edge can err more than pi_error says: 2.4 times was met. */
-static const double cut_caution = 2.5;
+/* Thin peaks at the aperture's edge can err more than pi_error says: 3.2 times was met. */
+static const double cut_caution = 3.5;
 
 /* The method for this receiver and page, and its predicted relative error. */
 static enum gather_method choose(const struct gather *gather, const struct look *look,
