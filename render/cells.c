@@ -58,6 +58,7 @@ enum slab_result cells_prepare(struct cells *cells, const struct view *view,
     low[axis] = along->strip[0].low;
     high[axis] = along->strip[along->count - 1].high;
     cells->unit[axis] = kind == CELLS_GAUSS ? 1 : reach(along);
+    if (axis == 1 && kind != CELLS_GAUSS) cells->unit[axis] *= view->page->unit;
     double pole = fmin(rule_pole(&strips[1 - axis]), kernel_pole(&view->kernel));
     result = rule_place(along, rule, orders, pole, &cells->nodes[axis], error);
   }

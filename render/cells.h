@@ -26,7 +26,8 @@ struct cells {
   struct taps_column *columns; /* CELLS_SINGLE, CELLS_VIEWS: one a strip along u; owned */
   int (*offset)[2];            /* CELLS_GAUSS: owned */
   int column_room;
-  double unit[2];   /* single precision: weights are relative to these lengths */
+  double unit[2];   /* single precision: weights are relative to these lengths
+                      and the page's unit */
   bool above;       /* the tangent plane: all of it */
   bool skip_black;  /* do not sum what is black; set by whoever prepares */
   int row;          /* next to sum */

@@ -106,6 +106,8 @@ static enum slab_result load(const struct arguments *arguments, struct world *wo
                              struct slab_error *error) {
   const struct options *options = &arguments->options;
   int count = options->light_count;
+  uint64_t receivers = (uint64_t)arguments->view.size[0] * (uint64_t)arguments->view.size[1] *
+                       (uint64_t)(arguments->samples * arguments->samples);
   const char *outputs[] = {arguments->output, arguments->preview, options->stats};
   char note[256] = "";
   enum slab_result result = options_load_lights(options, &world->lights, error);
@@ -118,8 +120,8 @@ static enum slab_result load(const struct arguments *arguments, struct world *wo
   }
   free(inputs);
   if (result == SLAB_OK)
-    result = gather_aids_make(world->lights, count, options->method, options->threads, &world->aids,
-                              error);
+    result = gather_aids_make(world->lights, count, options->method, receivers, options->threads,
+                              &world->aids, error);
   if (result == SLAB_OK)
     result = scene_load(arguments->view.mesh, SCENE_SURFACES, options->repair, &world->scene, note,
                         error);

@@ -46,6 +46,7 @@ static error_t parse(int key, char *value, struct argp_state *state) {
 /* What the threads share. */
 struct work {
   struct gather_settings settings;
+  struct gather_aids aids;
   struct gather **gather; /* [threads] */
   int threads;
   struct receivers receivers;
@@ -65,10 +66,20 @@ static enum slab_result work_tile(void *context, int tile, int worker, struct sl
   return result;
 }
 
+/* Once there have been so many receivers that it pays to prepare for more. */
+static enum slab_result prepare_for_many(struct work *work, struct slab_error *error) {
+  const struct gather_settings *settings = &work->settings;
+  uint64_t many = work->receivers.index;
+  if (settings->method != GATHER_AUTO || work->aids.trees || many < GATHER_MANY) return SLAB_OK;
+  return gather_aids_make(settings->lights, settings->light_count, settings->method, many,
+                          work->threads, &work->aids, error);
+}
+
 static enum slab_result answer(struct work *work, struct slab_error *error) {
   enum slab_result result;
   do {
-    result = receivers_read(stdin, BLOCK, &work->receivers, error);
+    result = prepare_for_many(work, error);
+    if (result == SLAB_OK) result = receivers_read(stdin, BLOCK, &work->receivers, error);
     int count = work->receivers.count, tiles = (count + TILE - 1) / TILE;
     if (result == SLAB_OK) result = tiles_run(work->threads, tiles, work_tile, NULL, work, error);
     for (int k = 0; k < count && result == SLAB_OK; ++k) {
@@ -105,7 +116,6 @@ static enum slab_result run(const struct arguments *arguments, struct stats *sta
   struct light *lights = NULL;
   struct scene scene = {0};
   struct occlusion *occlusion = NULL;
-  struct gather_aids aids = {0};
   struct work work = {.threads = options->threads};
   char note[256] = "";
   stats_phase(stats, "load");
@@ -119,10 +129,10 @@ static enum slab_result run(const struct arguments *arguments, struct stats *sta
     if (*note) cli_note("note: %s", note);
     stats_effect(stats, "shadows", occlusion != NULL, occlusion ? "%zu triangles" : "no --mesh",
                  scene.triangles);
-    work.settings = options_settings(options, lights, &aids, occlusion);
+    work.settings = options_settings(options, lights, &work.aids, occlusion);
     stats_phase(stats, "prepare");
-    result = gather_aids_make(lights, options->light_count, options->method, options->threads,
-                              &aids, error);
+    result = gather_aids_make(lights, options->light_count, options->method, 0, options->threads,
+                              &work.aids, error);
     if (result == SLAB_OK) result = prepare(&work, error);
     stats_phase(stats, "gather");
   }
@@ -130,7 +140,7 @@ static enum slab_result run(const struct arguments *arguments, struct stats *sta
   finish(&work, stats);
   if (result == SLAB_OK && options->stats)
     result = stats_write(stats, lights, options->light_count, options->stats, error);
-  gather_aids_free(&aids);
+  gather_aids_free(&work.aids);
   occlusion_free(occlusion);
   scene_free(&scene);
   options_free_lights(lights, options->light_count);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cut_view.h"
+#include "rule.h"
 
 enum { NODES = 1024, ROUNDS = 4 };
 
@@ -171,10 +172,9 @@ static bool start(struct cut_work *work, double tolerance) {
 
 /* ---- The sum ---- */
 
-/* What the micro lights cost, summed by pi or, where gather.c (cut_caution) would not take that, by
- * Gauss rules. */
+/* What the micro lights cost, summed by pi or, where that is not exact enough, by Gauss rules. */
 static double budget(const struct cut_view *sees, double tolerance) {
-  double strips[2], half = 0;
+  double strips[2], widest = 0;
   for (int axis = 0; axis < 2; ++axis) {
     const struct light_axis *along = &sees->view->page->axes[axis];
     const double near = along->near_step * sees->per_height;
@@ -182,11 +182,11 @@ static double budget(const struct cut_view *sees, double tolerance) {
     const double cells = 2 * along->half / fabs(along->far_step) * fabs(sees->w);
     const double share = cells > along->far_count ? along->far_count / cells : 1;
     strips[axis] = 1 + cells * share + share * along->near_count;
-    half = fmax(half, fmin(near, far) / 2);
+    widest = fmax(widest, fmin(near, far));
   }
-  const double error = 5.0 / 3 * half * half + half / 2 / sqrt(fmin(strips[0], strips[1]));
+  const double error = rule_pi_error(widest, fmin(strips[0], strips[1]), 0);
   const double cost = light_cost * strips[0] * strips[1] + strip_cost * (strips[0] + strips[1]);
-  return 3.5 * error <= tolerance ? cost : gauss * cost;
+  return error <= tolerance ? cost : gauss * cost;
 }
 
 /* Whether all of the aperture is above the tangent plane. */

@@ -30,8 +30,9 @@ struct gather {
   struct strips whole[2], part[2]; /* what a receiver sees of a page; behind occluders */
   struct rule_nodes nodes[2];      /* of the method closed */
   struct visible visible;
-  struct cut_work *cut; /* of the method cut; owned */
+  struct cut_work *cut; /* NULL until it is needed; owned */
   struct cut_counts cut_counts;
+  int cut_asked, cut_taken; /* receivers of this tile and page */
   struct cells_scratch scratch;
   struct cells sums[TOGETHER];
   int receiver[TOGETHER]; /* whose sum it is */
@@ -71,11 +72,6 @@ enum slab_result gather_create(const struct gather_settings *settings, struct ga
   made->settings = settings;
   double margin = settings->method == GATHER_REFERENCE ? reference_margin : 1;
   made->orders = rule_orders(fmax(settings->tolerance * margin, least_tolerance));
-  made->cut = settings->method == GATHER_CUT ? cut_work_make() : NULL;
-  if (settings->method == GATHER_CUT && !made->cut) {
-    gather_free(made);
-    return slab_fail(error, SLAB_MEMORY, "out of memory");
-  }
   *gather = made;
   return SLAB_OK;
 }
@@ -142,24 +138,14 @@ static enum slab_result take_sums(struct gather *gather, double gain, struct gat
   return SLAB_OK;
 }
 
-/* The rule `pi` takes the kernel from the middle of a micro light. Over a strip of half width
- * h the kernel's curvature changes the mean by at most 5/3 h^2, and its slope, together with
- * the radiance's, by about h/2 times the change of radiance over the strip; of the latter a
- * sum over n strips keeps the share 1/sqrt(n) (rough samples in rows: the worst that was
- * met). A highlight is about exp(-m x^2/8) for the exponent m: it adds its own curvature and
- * slope. */
 static double pi_error(const struct strips strips[2], double shininess) {
   double widest = 0;
   int fewest = strips[0].count < strips[1].count ? strips[0].count : strips[1].count;
   for (int axis = 0; axis < 2; ++axis)
     for (int k = 0; k < strips[axis].count; ++k)
       widest = fmax(widest, strips[axis].strip[k].high - strips[axis].strip[k].low);
-  double half = widest / 2, curvature = 5.0 / 3 + shininess / 24, slope = 1 + sqrt(shininess) / 2;
-  return curvature * half * half + slope * half / 2 / sqrt(fewest);
+  return rule_pi_error(widest, fewest, shininess);
 }
-
-/* Thin peaks at the aperture's edge can err more than pi_error says: 3.2 times was met. */
-static const double cut_caution = 3.5;
 
 /* The method for this receiver and page, and its predicted relative error. */
 static enum gather_method choose(const struct gather *gather, const struct look *look,
@@ -169,7 +155,6 @@ static enum gather_method choose(const struct gather *gather, const struct look 
   bool cheapest = method == GATHER_AUTO || method == GATHER_LEVELS || method == GATHER_CUT;
   if (cheapest || method == GATHER_PI || method == GATHER_MIDPOINT) {
     double single = pi_error(strips, look->receiver->shininess);
-    if (method == GATHER_CUT) single *= cut_caution;
     if (cheapest) method = single <= *error ? GATHER_PI : GATHER_REFERENCE;
     if (method != GATHER_REFERENCE) *error = single;
   }
@@ -284,16 +269,26 @@ static void note_error(struct gather *gather, const struct look *look, double er
   gather->counts.error = fmax(gather->counts.error, error);
 }
 
-/* By the method cut, if it is that and takes this receiver. */
+/* Asking the cut costs a part of what the micro lights do: where it took less than one of four
+ * neighbours, the others of the tile do not ask. */
+static bool cut_is_hopeless(const struct gather *gather) {
+  return gather->cut_asked >= 4 && 4 * gather->cut_taken < gather->cut_asked;
+}
+
+/* By the method cut, if there are trees and it takes this receiver. */
 static bool take_cut(struct gather *gather, const struct look *look, const struct view *view,
                      struct gathered *gathered) {
   const struct gather_aids *aids = gather->settings->aids;
   double irradiance[3];
   static const double gloss[3];
-  if (!gather->cut || !aids || !aids->trees) return false;
+  if (!aids || !aids->trees || cut_is_hopeless(gather)) return false;
+  if (!gather->cut) gather->cut = cut_work_make();
+  if (!gather->cut) return false; /* no memory: the micro lights need less */
+  ++gather->cut_asked;
   if (!cut_sum(aids->trees[look->page_number], view, gather->settings->tolerance, 0, gather->cut,
                irradiance, &gather->cut_counts))
     return false;
+  ++gather->cut_taken;
   add(&gathered[look->index], irradiance, gloss, look->light->gain);
   note_error(gather, look, gather->cut_counts.error, gathered);
   return true;
@@ -375,6 +370,7 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
   for (int l = 0, number = 0; l < settings->light_count; ++l) {
     const struct light *light = &settings->lights[l];
     for (int page = 0; page < light->count && result == SLAB_OK; ++page, ++number) {
+      gather->cut_asked = gather->cut_taken = 0;
       bool shadows = find_shadows(gather, &light->pages[page], receivers, count);
       for (int k = 0; k < count && result == SLAB_OK; ++k) {
         const struct look look = {light, &light->pages[page], number, shadows, &receivers[k], k};

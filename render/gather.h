@@ -62,12 +62,15 @@ struct gather_counts {
 struct gather_aids {
   int pages;
   struct levels *levels;   /* [pages], methods levels; NULL for others; owned */
-  struct cut_tree **trees; /* [pages], method cut; NULL for others; owned */
+  struct cut_tree **trees; /* [pages], methods cut and auto; NULL for others; owned */
 };
 
-/* Makes what the method needs. */
+/* Makes what the method needs for about so many receivers: auto has trees only where they are
+ * so many that making them pays. Frees what there was; zeroed aids are allowed. */
 enum slab_result gather_aids_make(const struct light *lights, int count, enum gather_method method,
-                                  int threads, struct gather_aids *aids, struct slab_error *error);
+                                  uint64_t receivers, int threads, struct gather_aids *aids,
+                                  struct slab_error *error);
+enum { GATHER_MANY = 100000 };                   /* from so many on */
 void gather_aids_free(struct gather_aids *aids); /* zeroed aids allowed */
 
 struct gather_settings {

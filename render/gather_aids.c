@@ -6,12 +6,14 @@
 #include "levels.h"
 
 enum slab_result gather_aids_make(const struct light *lights, int count, enum gather_method method,
-                                  int threads, struct gather_aids *aids, struct slab_error *error) {
+                                  uint64_t receivers, int threads, struct gather_aids *aids,
+                                  struct slab_error *error) {
   enum slab_result result = SLAB_OK;
-  *aids = (struct gather_aids){0};
+  gather_aids_free(aids);
   for (int l = 0; l < count; ++l) aids->pages += lights[l].count;
   bool levels = method == GATHER_LEVELS || method == GATHER_PAPER_LEVELS;
-  if (!levels && method != GATHER_CUT) return SLAB_OK;
+  bool trees = method == GATHER_CUT || (method == GATHER_AUTO && receivers >= GATHER_MANY);
+  if (!levels && !trees) return SLAB_OK;
   if (levels)
     aids->levels = calloc((size_t)aids->pages, sizeof *aids->levels);
   else

@@ -1,6 +1,7 @@
 /* light.c - see light.h. */
 #include "light.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,6 +99,16 @@ static enum slab_result place(const char *text, const struct light_text *where, 
   return result;
 }
 
+static void set_unit(struct light_page *page) {
+  size_t count = 3 * slab_sample_count(&page->slab);
+  float peak = 0, *samples = page->slab.rgb;
+  for (size_t k = 0; k < count; ++k) {
+    if (fabsf(samples[k]) < FLT_MIN) samples[k] = 0;
+    peak = fmaxf(peak, fabsf(samples[k]));
+  }
+  page->unit = peak > 0 ? ldexp(1, ilogbf(peak) - 60) : 1;
+}
+
 enum slab_result light_page_set_samples(struct light_page *page, struct slab_error *error) {
   for (int k = 0; k < 2; ++k) {
     struct light_axis *axis = &page->axes[k];
@@ -106,6 +117,7 @@ enum slab_result light_page_set_samples(struct light_page *page, struct slab_err
     axis->near_step = 2 * axis->half / axis->near_count;
     axis->far_step = (axis->far_high - axis->far_low) / axis->far_count;
   }
+  set_unit(page);
   free(page->lit);
   page->lit = dark_rows(&page->slab);
   return page->lit ? SLAB_OK : slab_fail(error, SLAB_MEMORY, "out of memory");

@@ -32,6 +32,8 @@ struct light_page {
   double frame[3][3]; /* unit vectors u', v' and n */
   struct light_axis axes[2];
   struct dark_row *lit; /* [rows of the raster]: where they are not black; owned */
+  double unit; /* a power of two; samples divided by it are at most about 2^60, so that sums in
+                  single precision neither overflow nor lose small ones */
 };
 
 struct light {
@@ -47,7 +49,8 @@ struct light {
 enum slab_result light_load(const char *text, struct light *light, struct slab_error *error);
 void light_free(struct light *light); /* zeroed light allowed */
 
-/* Sets what the page knows of its slab's samples, after these have changed. */
+/* Sets what the page knows of its slab's samples, after these have changed. Samples too small
+ * for normal floats become 0: they have lost their digits, and processors are slow with them. */
 enum slab_result light_page_set_samples(struct light_page *page, struct slab_error *error);
 void light_page_free(struct light_page *page);
 

@@ -209,8 +209,9 @@ static enum slab_result make_aids(struct bench *bench, enum gather_method method
   struct tradeoff_aids *aids = &bench->tradeoff->aids[method];
   size_t before = memory_used();
   double start = clock_of(CLOCK_PROCESS_CPUTIME_ID);
-  enum slab_result result = gather_aids_make(settings->gather.lights, settings->gather.light_count,
-                                             method, settings->threads, &aids->aids, error);
+  enum slab_result result =
+      gather_aids_make(settings->gather.lights, settings->gather.light_count, method, UINT64_MAX,
+                       settings->threads, &aids->aids, error);
   if (result != SLAB_OK) return result;
   size_t after = memory_used();
   aids->cpu = clock_of(CLOCK_PROCESS_CPUTIME_ID) - start;

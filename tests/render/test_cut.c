@@ -86,7 +86,7 @@ static void make(struct lit *lit, enum lamp lamp, const int samples[SLAB_AXES], 
   fill(lit, lamp, 1);
   assert_int_equal(light_page_set_samples(&lit->page, &error), SLAB_OK);
   lit->light = (struct light){.count = 1, .pages = &lit->page, .gain = 1, .scale = 1};
-  assert_int_equal(gather_aids_make(&lit->light, 1, GATHER_CUT, threads, &lit->aids, &error),
+  assert_int_equal(gather_aids_make(&lit->light, 1, GATHER_CUT, 0, threads, &lit->aids, &error),
                    SLAB_OK);
 }
 
@@ -292,7 +292,7 @@ static void test_linear(void **state) {
   size_t floats = 3 * slab_sample_count(&lit.page.slab);
   for (size_t k = 0; k < floats; ++k) lit.page.slab.rgb[k] *= 1024;
   gather_aids_free(&lit.aids);
-  assert_int_equal(gather_aids_make(&lit.light, 1, GATHER_CUT, 2, &lit.aids, &error), SLAB_OK);
+  assert_int_equal(gather_aids_make(&lit.light, 1, GATHER_CUT, 0, 2, &lit.aids, &error), SLAB_OK);
   sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, more);
   for (int k = 0; k < COUNT; ++k)
     for (int c = 0; c < 3; ++c) assert_true(more[k].irradiance[c] == 1024 * once[k].irradiance[c]);
