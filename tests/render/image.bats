@@ -217,6 +217,22 @@ refuses() {
   refuses letter_f.tif "${good[@]}" -o a.exr --preview letter_f.tif
 }
 
+@test "a time limit: the coarsest picture in any case, and how good it is" {
+  run -0 --separate-stderr "$RENDERSLAB" image occluder.obj --light 'letter_f.tif at=0,1,0' --size 40x30 \
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' -o late.exr --time-limit 0.001
+  # shellcheck disable=SC2154
+  [[ $stderr == *"0.001 s do not suffice"* ]]
+  [[ $stderr == *"relative error at most"* ]]
+  picture free.exr
+  picture timed.exr --time-limit 1000
+  oiiotool free.exr timed.exr --diff # all that was asked for, in the end
+  oiiotool free.exr late.exr --fail 0.1 --failpercent 20 --diff
+  before=$(ls)
+  for limit in 0 -1 nan x; do
+    refuses limit floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr --time-limit "$limit"
+  done
+}
+
 @test "what is skipped changes nothing but the cost" {
   picture auto.exr --stats auto.json
   picture all.exr --effects all --stats all.json
