@@ -23,6 +23,7 @@ struct arguments {
   const char *output, *plot;
   bool methods[GATHER_METHODS];
   double finest;
+  int levels; /* -1: all */
   int repeats, threads;
   bool no_shadows;
 };
@@ -38,12 +39,18 @@ enum {
   OPTION_PLOT = 256,
   OPTION_METHODS,
   OPTION_FINEST,
+  OPTION_LEVELS,
   OPTION_REPEATS,
   OPTION_THREADS,
   OPTION_NO_SHADOWS
 };
 
-enum { MOST_THREADS = 1024, SHADOW_GRID = 16, SHADOW_EDGE = 256 }; /* as options.c has them */
+enum {
+  MOST_THREADS = 1024,
+  MOST_LEVEL = 30,
+  SHADOW_GRID = 16,
+  SHADOW_EDGE = 256
+}; /* as options.c has them */
 /* Unless --size says otherwise the picture is no wider and no higher. */
 enum { WIDTH = 160, HEIGHT = 120 };
 
@@ -71,6 +78,7 @@ static void init(struct arguments *arguments, struct argp_state *state) {
   state->child_inputs[1] = &arguments->view;
   for (int k = 0; k < GATHER_METHODS; ++k) arguments->methods[k] = true;
   arguments->finest = 1e-4;
+  arguments->levels = -1;
   arguments->repeats = 3;
   arguments->threads = tiles_processors();
 }
@@ -84,6 +92,7 @@ static void finish(struct arguments *arguments, struct argp_state *state) {
 
 static error_t parse(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
+  uint64_t count = 0;
   switch (key) {
   case ARGP_KEY_INIT:
     init(arguments, state);
@@ -101,6 +110,11 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     if (!options_number(value, &arguments->finest) || !(arguments->finest >= 1e-12) ||
         !(arguments->finest <= 0.1))
       argp_error(state, "--finest %s: must be a number from 1e-12 to 0.1", value);
+    return 0;
+  case OPTION_LEVELS:
+    if (!options_count(value, 0, MOST_LEVEL, &count))
+      argp_error(state, "--levels %s: must be a whole number from 0 to %d", value, MOST_LEVEL);
+    arguments->levels = (int)count;
     return 0;
   case OPTION_REPEATS:
     arguments->repeats = parse_count("--repeats", value, TRADEOFF_MOST_REPEATS, state);
@@ -176,6 +190,7 @@ static struct tradeoff_settings settings_of(const struct arguments *arguments,
                  .shadow_edge = SHADOW_EDGE},
       .closed = arguments->no_shadows && !any_gloss(&world->scene),
       .finest = arguments->finest,
+      .levels = arguments->levels,
       .threads = arguments->threads,
       .repeats = arguments->repeats,
       .progress = show_progress,
@@ -257,7 +272,10 @@ static const struct argp_option options_list[] = {
      "Measure these only (default: all that can do the scene)", 0},
     {"finest", OPTION_FINEST, "T", 0, "The last of the tolerances 0.1, 0.03, ... (default 1e-4)",
      0},
-    {"repeats", OPTION_REPEATS, "N", 0, "Measure each N times (default 3)", 0},
+    {"levels", OPTION_LEVELS, "K", 0,
+     "The last level that is measured of methods that have levels (default: all)", 0},
+    {"repeats", OPTION_REPEATS, "N", 0, "Measure N times what takes less than a second (default 3)",
+     0},
     {"threads", OPTION_THREADS, "N", 0, "Threads (default: one a processor); same result", 0},
     {"no-shadows", OPTION_NO_SHADOWS, NULL, 0,
      "Light passes through the mesh; then the method closed is measured too", 0},

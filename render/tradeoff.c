@@ -16,6 +16,8 @@ const double tradeoff_truth = 1e-6;
 
 /* A measurement is repeated until it took so long: clocks and caches need it. */
 static const double shortest = 0.02;
+/* What took longer is not repeated. */
+static const double longest = 1;
 /* Darker than this share of the mean, a pixel's error is relative to that. */
 static const double dark = 0.01;
 
@@ -179,6 +181,7 @@ static enum slab_result find_truth(struct bench *bench, struct slab_error *error
   enum slab_result result = SLAB_OK;
   gather.method = GATHER_REFERENCE;
   gather.tolerance = tradeoff_truth;
+  gather.all_effects = true;
   gather.aids = &bench->tradeoff->aids[GATHER_REFERENCE].aids;
   for (int k = 0; k < 2 && result == SLAB_OK; ++k) {
     struct gather_counts counts;
@@ -240,14 +243,20 @@ static enum slab_result prepare(struct bench *bench, struct slab_error *error) {
   if (result != SLAB_OK) return result;
   tradeoff->rungs = calloc(TRADEOFF_MOST_RUNGS, sizeof *tradeoff->rungs);
   if (!tradeoff->rungs) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  tradeoff->count = tradeoff_ladder(settings, most_levels(tradeoff), tradeoff->rungs);
+  int levels = most_levels(tradeoff);
+  if (settings->levels >= 0 && settings->levels < levels) levels = settings->levels;
+  tradeoff->count = tradeoff_ladder(settings, levels, tradeoff->rungs);
   if (tradeoff->count == 0)
     return slab_fail(error, SLAB_BAD,
                      "no method to measure: closed needs --no-shadows and matte materials");
   return SLAB_OK;
 }
 
-static enum slab_result measure(struct bench *bench, struct tradeoff_rung *rung, int repeat,
+static bool wanted(const struct tradeoff_rung *rung) {
+  return !rung->refused && (rung->repeats == 0 || rung->cpus[0] < longest);
+}
+
+static enum slab_result measure(struct bench *bench, struct tradeoff_rung *rung,
                                 struct slab_error *error) {
   struct tradeoff *tradeoff = bench->tradeoff;
   struct gather_settings gather = bench->settings->gather;
@@ -270,17 +279,18 @@ static enum slab_result measure(struct bench *bench, struct tradeoff_rung *rung,
     if (result != SLAB_OK) return result;
     ++runs;
   }
-  rung->cpus[repeat] = cpu / runs;
-  rung->walls[repeat] = wall / runs;
-  if (repeat == 0) rung->error = compare(bench, bench->truth);
-  if (repeat == 0) rung->sum = compare(bench, bench->same);
+  rung->error = compare(bench, bench->truth);
+  rung->sum = compare(bench, bench->same);
+  rung->cpus[rung->repeats] = cpu / runs;
+  rung->walls[rung->repeats++] = wall / runs;
   return SLAB_OK;
 }
 
-/* What all rungs together took at first. */
+/* What all rungs that are repeated took at first. */
 static double total_time(const struct tradeoff *tradeoff) {
   double sum = 0;
-  for (int k = 0; k < tradeoff->count; ++k) sum += tradeoff->rungs[k].walls[0];
+  for (int k = 0; k < tradeoff->count; ++k)
+    if (wanted(&tradeoff->rungs[k])) sum += tradeoff->rungs[k].walls[0];
   return sum > 0 ? sum : 1;
 }
 
@@ -293,11 +303,11 @@ static enum slab_result climb(struct bench *bench, struct slab_error *error) {
     double part = 0, all = repeat ? total_time(tradeoff) : tradeoff->count;
     for (int k = 0; k < tradeoff->count && result == SLAB_OK; ++k) {
       struct tradeoff_rung *rung = &tradeoff->rungs[k];
-      double share = repeat ? rung->walls[0] : 1;
+      double share = !repeat ? 1 : wanted(rung) ? rung->walls[0] : 0;
       bench->done = (repeat + part / all) / repeats;
       bench->share = share / all / repeats;
       part += share;
-      if (!rung->refused) result = measure(bench, rung, repeat, error);
+      if (wanted(rung)) result = measure(bench, rung, error);
     }
   }
   return result;
@@ -309,6 +319,7 @@ static int by_size(const void *left, const void *right) {
 }
 
 static struct tradeoff_spread spread(const double *values, int count) {
+  if (count == 0) return (struct tradeoff_spread){0};
   double sorted[TRADEOFF_MOST_REPEATS];
   memcpy(sorted, values, (size_t)count * sizeof *sorted);
   qsort(sorted, (size_t)count, sizeof *sorted, by_size);
@@ -325,8 +336,8 @@ enum slab_result tradeoff_measure(const struct tradeoff_settings *settings,
   if (result == SLAB_OK) result = climb(&bench, error);
   for (int k = 0; k < tradeoff->count && result == SLAB_OK; ++k) {
     struct tradeoff_rung *rung = &tradeoff->rungs[k];
-    rung->cpu = spread(rung->cpus, settings->repeats);
-    rung->wall = spread(rung->walls, settings->repeats);
+    rung->cpu = spread(rung->cpus, rung->repeats);
+    rung->wall = spread(rung->walls, rung->repeats);
   }
   free(bench.hits);
   free(bench.first);

@@ -31,6 +31,7 @@ struct tradeoff_settings {
                                     ladder's */
   bool methods[GATHER_METHODS];  /* which to measure */
   bool closed;                   /* may the method closed be measured: no shadows, no gloss */
+  int levels;                    /* the last that is measured; -1: all */
   double finest;                 /* tolerance at which the ladder ends, > 0 */
   int threads;                   /* >= 1 */
   int repeats;                   /* 1..TRADEOFF_MOST_REPEATS */
@@ -63,6 +64,7 @@ struct tradeoff_rung {
   struct tradeoff_error sum;        /* against that with the usual shadows; unless `shadows` */
   struct gather_counts counts;
 
+  int repeats; /* what took over a second is not repeated */
   double cpus[TRADEOFF_MOST_REPEATS], walls[TRADEOFF_MOST_REPEATS];
 };
 

@@ -53,7 +53,9 @@ static void print_head(FILE *file, const struct tradeoff_settings *settings,
             TRADEOFF_FINER_SHADOWS * settings->gather.shadow_edge);
   else
     fputs("no shadows", file);
-  fprintf(file, "; it took %.4g CPU seconds\n# threads: %d; repeats: %d, interleaved\n",
+  fprintf(file,
+          "; it took %.4g CPU seconds\n# threads: %d; repeats: %d, interleaved; what took over a "
+          "second is not repeated\n",
           tradeoff->truth_cpu, settings->threads, settings->repeats);
   fprintf(file, "# memory: slabs %zu bytes; peak resident, with what all methods keep, %zu\n",
           about->slab_bytes, peak_memory());

@@ -69,8 +69,9 @@ column() {
 }
 
 @test "chosen methods only; standard output" {
-  tradeoff -o - --methods pi,views >t.tsv
-  [ "$(column t.tsv method | tr '\n' ' ')" = "pi views " ]
+  tradeoff -o - --methods pi,levels --levels 1 >t.tsv
+  [ "$(column t.tsv method | tr '\n' ' ')" = "pi levels levels levels " ]
+  [ "$(column t.tsv level | tr '\n' ' ')" = "- 0 1 auto " ]
 }
 
 @test "a plot, SVG or PNG" {
@@ -106,6 +107,7 @@ refuses() {
   refuses nothere.tif occluder.obj "${view[@]}" --light nothere.tif -o t.tsv
   for value in 0 -1 nan inf 1e-13 0.2 x ''; do refuses finest "${good[@]}" -o t.tsv "--finest=$value"; done
   for value in 0 100 1.5 x ''; do refuses repeats "${good[@]}" -o t.tsv "--repeats=$value"; done
+  for value in -1 31 1.5 x ''; do refuses levels "${good[@]}" -o t.tsv "--levels=$value"; done
   refuses threads "${good[@]}" -o t.tsv --threads 0
   refuses size "${good[@]}" -o t.tsv --size 0x3
   for value in nonsense '' 'pi,,' pi,best; do refuses 'there is no method' "${good[@]}" -o t.tsv "--methods=$value"; done
