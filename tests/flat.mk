@@ -25,7 +25,7 @@ test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
 	@sh tests/summary.sh $(TEST_LOGS)
 
-# Tools of the benchmarks; the demo's pictures are among what is measured.
+# Tools of the benchmarks and of `make tradeoff`; the demo's pictures are among what is measured.
 BENCH_FLOOR := $(B)/tests/bench/floor
 BENCH_SUM := $(B)/tests/bench/sum
 
@@ -37,10 +37,22 @@ $(BENCH_SUM): $(B)/tests/bench/sum.o $(B)/tests/bench/roofline.o $(B)/librender.
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(RENDER_LIBS) $(ALL_LDLIBS) -o $@
 
-bench: $(BAKE_BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
+TRADEOFF_LAMPS := $(B)/tests/tradeoff/lamps
+
+$(TRADEOFF_LAMPS): $(B)/tests/tradeoff/lamps.o $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
+.PHONY: tradeoff
+tradeoff: $(BIN) $(BENCH_FLOOR) $(TRADEOFF_LAMPS) $(DEMO)/parabolic.tif ## measure what accuracy costs in time, and plot it
+	@mkdir -p build/tradeoff
+	@ln -sfn $(abspath $(DEMO)/parabolic.tif) build/tradeoff/parabolic.tif
+	@$(TEST_ENV) BUILD=$(abspath build/tradeoff) LAMPS=$(abspath $(TRADEOFF_LAMPS)) FLOOR=$(abspath $(BENCH_FLOOR)) tests/tradeoff/run.sh
+
+bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
 	@mkdir -p build/bench
 	@for b in tests/bench/*.sh; do [ -x "$$b" ] || continue; \
-	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
+	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
 
 lint: $(B)/flags ## check formatting, static analysis and house rules
 	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh
