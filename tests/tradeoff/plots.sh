@@ -58,7 +58,7 @@ PLOT
 }
 
 resolution() {
-  local st plots=() number=0 colours=('#1f77b4' '#ff7f0e' '#2ca02c')
+  local st plots=() number=0 colours=('#1f77b4' '#ff7f0e' '#2ca02c') labels=('0,-1' '-1.5,0.7' '1.5,0.5')
   for st in 32 64 128; do
     echo "\$exact$st << END"
     awk -F'\t' -v st=$st '$2 == st { print $3, $4, $1 }' resolution.tsv
@@ -67,7 +67,7 @@ resolution() {
     awk -F'\t' -v st=$st '$2 == st && $5 != "-" { print $3, $5 }' resolution.tsv
     echo END
     plots+=("\$exact$st with linespoints lw 2 pt 7 lc rgb '${colours[number]}' title '$st x $st directions'"
-      "\$exact$st using 1:2:(sprintf('%d', \$3)) with labels offset 0,0.9 tc rgb '${colours[number]}' notitle")
+      "\$exact$st using 1:2:(sprintf('%d', \$3)) with labels offset ${labels[number]} tc rgb '${colours[number]}' notitle")
     # gnuplot warns of blocks without points.
     ! awk -F'\t' -v st=$st '$2 == st && $5 != "-" { found = 1 } END { exit !found }' resolution.tsv ||
       plots+=("\$baked$st with points pt 4 ps 1.8 lw 2 lc rgb '${colours[number]}' notitle")
@@ -82,7 +82,8 @@ set grid
 set key top right
 set xlabel 'samples of the slab'
 set ylabel 'relative error of the irradiance (RMS), %'
-set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.05
+set xrange [3e4:4e7]
+set yrange [1:10]
 plot $(printf '%s, ' "${plots[@]}" | sed 's/, $//')
 PLOT
 }
