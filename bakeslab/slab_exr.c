@@ -184,6 +184,8 @@ enum slab_result slab_exr_open(int fd, const char *path, const char *text_name,
     result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
     goto out;
   }
+  /* A picture is the first part; what others hold is nobody's business. */
+  if (!text_name && exr->count > 1) exr->count = 1;
   for (int part = 0; part < exr->count && result == SLAB_OK; ++part)
     result = read_part_header(exr, part, text_name, error);
 out:

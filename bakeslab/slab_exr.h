@@ -46,7 +46,8 @@ enum slab_result slab_exr_write_parts(struct slab_output *output, const struct s
 struct slab_exr; /* owned by whoever opened it */
 
 /* Reads the headers. Takes over `fd`, also when it fails; `path` is for
- * messages. The text of each part is that of the string attribute `text_name`. */
+ * messages. The text of each part is that of the string attribute `text_name`; where that is NULL,
+ * only the first part is looked at. */
 enum slab_result slab_exr_open(int fd, const char *path, const char *text_name,
                                struct slab_exr **exr, struct slab_error *error);
 void slab_exr_close(struct slab_exr *exr); /* NULL allowed */

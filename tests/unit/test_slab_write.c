@@ -454,15 +454,41 @@ static void test_exr_chunk_sizes(void **state) {
     }
 }
 
+/* A picture with errors is read as the picture that it is. */
+static void test_exr_errors(void **state) {
+  (void)state;
+  const char *path = scratch("errors.exr");
+  float rgb[3 * 12], off[3 * 12];
+  struct slab_picture picture = {.width = 4, .height = 3, .rgb = rgb, .error = off}, got = {0};
+  struct slab_error error = {{0}};
+  for (int k = 0; k < 3 * 12; ++k) {
+    rgb[k] = (float)k / 7;
+    off[k] = -1;
+  }
+  assert_ok(slab_exr_write(path, &picture, 0, "errors", &error), &error);
+  assert_ok(slab_exr_read(path, &got, &error), &error);
+  assert_int_equal(got.height, 3);
+  assert_memory_equal(got.rgb, rgb, sizeof rgb);
+  slab_picture_free(&got);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_round_trips),           cmocka_unit_test(test_logluv_range),
-      cmocka_unit_test(test_provenance_of_changed), cmocka_unit_test(test_links),
-      cmocka_unit_test(test_logluv_saturated),      cmocka_unit_test(test_tiff_as_others_see_it),
-      cmocka_unit_test(test_unknown_keys_are_kept), cmocka_unit_test(test_provenance),
-      cmocka_unit_test(test_refused_samples),       cmocka_unit_test(test_extremes),
-      cmocka_unit_test(test_refused_targets),       cmocka_unit_test(test_failure_leaves_nothing),
-      cmocka_unit_test(test_symbolic_link),         cmocka_unit_test(test_exr_chunk_sizes),
+      cmocka_unit_test(test_round_trips),
+      cmocka_unit_test(test_logluv_range),
+      cmocka_unit_test(test_provenance_of_changed),
+      cmocka_unit_test(test_links),
+      cmocka_unit_test(test_logluv_saturated),
+      cmocka_unit_test(test_tiff_as_others_see_it),
+      cmocka_unit_test(test_unknown_keys_are_kept),
+      cmocka_unit_test(test_provenance),
+      cmocka_unit_test(test_refused_samples),
+      cmocka_unit_test(test_extremes),
+      cmocka_unit_test(test_refused_targets),
+      cmocka_unit_test(test_failure_leaves_nothing),
+      cmocka_unit_test(test_symbolic_link),
+      cmocka_unit_test(test_exr_chunk_sizes),
+      cmocka_unit_test(test_exr_errors),
   };
   return cmocka_run_group_tests_name("slab files of ours", tests, NULL, NULL);
 }
