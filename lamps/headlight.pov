@@ -1,6 +1,6 @@
 // A car's headlight (dipped beam): a free-form mirror of 36 x 6 facets. Each is a piece of a
 // paraboloid about the filament, turned to where its image of the filament is to go, so that
-// no light goes above the horizon save on the right, where it climbs (right-hand traffic).
+// hardly any light goes above the horizon save on the right, where it climbs (right-hand traffic).
 // Centimetres; 18 x 12 cm, shining along +z from z = 0, x to the driver's right;
 // radiance in W/(sr m2).
 // It calls for nothing: rays meet the filament by way of the mirror themselves, and nothing
