@@ -95,17 +95,25 @@ static error_t parse_lights(int key, char *value, struct argp_state *state) {
 static void set_defaults(struct options *options) {
   options->method = GATHER_AUTO;
   options->level = -1;
-  options->shadow_grid = 16;
-  options->shadow_edge = 256;
+}
+
+/* Shadows as fine as the tolerance calls for, where that decides what is summed. */
+static void set_shadows(struct options *options) {
+  bool by_tolerance = options->method == GATHER_AUTO || options->method == GATHER_CUT;
+  bool coarse = by_tolerance && options->tolerance >= 0.003;
+  if (options->shadow_grid < 1) options->shadow_grid = coarse ? 8 : 16;
+  if (options->shadow_edge < 1) options->shadow_edge = coarse ? 64 : 256;
+  if (options->shadow_edge < options->shadow_grid) options->shadow_edge = options->shadow_grid;
 }
 
 static void finish(struct options *options, struct argp_state *state) {
   if (!(options->tolerance > 0))
     options->tolerance = options->method == GATHER_REFERENCE ? 1e-6 : 0.01;
   if (options->threads < 1) options->threads = tiles_processors();
-  if (options->shadow_edge < options->shadow_grid)
+  if (options->shadow_edge > 0 && options->shadow_edge < options->shadow_grid)
     argp_error(state, "--shadow-edge %d: must not be less than --shadow-grid %d",
                options->shadow_edge, options->shadow_grid);
+  set_shadows(options);
 }
 
 static error_t parse_sum(int key, char *value, struct argp_state *state) {
@@ -183,9 +191,12 @@ static const struct argp_option sum_options[] = {
      "black; all skips nothing, to compare",
      0},
     {"shadow-grid", OPTION_SHADOW_GRID, "N", 0,
-     "Shadow rays look at each aperture in N x N blocks (default 16)", 0},
+     "Shadow rays look at each aperture in N x N blocks (default 16; 8 for auto and cut with a "
+     "tolerance of 0.003 or more)",
+     0},
     {"shadow-edge", OPTION_SHADOW_EDGE, "N", 0,
-     "and at edges of shadows in parts of 1/N of its sides (default 256)", 0},
+     "and at edges of shadows in parts of 1/N of its sides (default 256; 64 where blocks are 8)",
+     0},
     {"threads", OPTION_THREADS, "N", 0, "Threads (default: one a processor); same result", 0},
     {"seed", OPTION_SEED, "N", 0, "Of the methods paper and paper-levels (default 0)", 0},
     {"stats", OPTION_STATS, "FILE", 0, "Write what was done, and its time, as JSON", 0},

@@ -20,7 +20,7 @@ struct options {
   const char *stats;         /* NULL: none */
   bool repair;
   bool all_effects;             /* false: skip what cannot be seen */
-  int shadow_grid, shadow_edge; /* 16, 256 */
+  int shadow_grid, shadow_edge; /* 16, 256; coarser where the tolerance allows */
 };
 
 /* For the `children` of a command's argp. The command sets state->child_inputs to its struct
