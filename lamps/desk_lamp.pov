@@ -1,7 +1,7 @@
 // A desk lamp: a conical shade, white and matt inside, with a frosted bulb of about 800 lm,
 // on an arm and a foot. It stands on y = 0, its foot at the origin, and shines down along +x.
 // Centimetres; radiance in W/(sr m2).
-// It calls for interreflection: the white shade lights itself, which is a third of the light.
+// It calls for interreflection: the white shade lights itself, which is a fifth of the light.
 // The bulb is round and small beside the shade, so that its size matters little to shading
 // (rays see it as the sphere that it is).
 // A matt shade shines up to grazing angles, of which `bakeslab check` warns; 2.5 % of the light
