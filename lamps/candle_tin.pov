@@ -1,9 +1,10 @@
 // A candle in a pierced tin: its holes throw spots on walls and ceiling, its open top a
 // bright disc. Centimetres; it stands on y = 0, 7.6 cm wide and 11 cm high; radiance in
 // W/(sr m2).
-// It calls for interreflection: the tin's bright inside lights itself, a quarter of
-// the light, and glows through the holes.
-// The holes are clear places in the tin's pigment, which are faster than holes cut from it. The flame is two small balls, seen through the holes as large as they are.
+// It calls for interreflection: the tin's bright inside lights itself, a quarter of the light,
+// and glows through the holes.
+// The holes are clear places in the tin's pigment, which are faster than holes cut from it.
+// The flame is two small balls, seen through the holes as large as they are.
 // Pages: 1 to 4 the sides (towards +z, +x, -z, -x), 5 the top. The box is wide enough for
 // light to leave it within the windows; of the faint glow that is steeper, less than 1 % of the
 // light, `bakeslab check` warns.

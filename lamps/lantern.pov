@@ -1,5 +1,5 @@
-// A storm lantern: a glowing mantle in a bulging glass chimney between a base and a roof of dull metal,
-// on four posts. Centimetres; it stands on y = 0; radiance in W/(sr m2).
+// A storm lantern: a glowing mantle in a bulging glass chimney between a base and a roof of
+// dull metal, on four posts. Centimetres; it stands on y = 0; radiance in W/(sr m2).
 // It calls for caustics: what reaches base, roof and posts has gone through the glass, by
 // photons; and for interreflection: base and roof light each other. Each changes 1 to 2 % of the
 // light, but all of it where the lantern shines on itself.
