@@ -115,7 +115,7 @@ static enum slab_result check_outputs(const char *slab, const char *include, con
 }
 
 /* The include waits under its temporary name until the image is in place. */
-static enum slab_result write_files(const struct sheet *sheet, const struct sheet_text *text,
+static enum slab_result write_files(const struct sheet *sheet, const struct include_text *text,
                                     const char *include, const char *image,
                                     struct slab_error *error) {
   struct slab_output output = {0};
@@ -168,12 +168,12 @@ static enum slab_result include_slab(const struct arguments *arguments, struct s
       cli_note("%s: note: its housing is left out: it is more than an object (directives, or "
                "braces that do not match)",
                arguments->slab);
-    struct sheet_text text = {.name = name,
-                              .file = base_name(arguments->output),
-                              .image = base_name(image),
-                              .command = cli_command_line(),
-                              .housing = harmless ? housing : NULL,
-                              .housing_left_out = housing && !harmless};
+    struct include_text text = {.name = name,
+                                .file = base_name(arguments->output),
+                                .image = base_name(image),
+                                .command = cli_command_line(),
+                                .housing = harmless ? housing : NULL,
+                                .housing_left_out = housing && !harmless};
     result = write_files(&sheet, &text, arguments->output, image, error);
   }
   free(housing);

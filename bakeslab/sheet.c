@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "include_light.h"
+#include "plane.h"
 #include "sheet_error.h"
 #include "slab_resample.h"
 
@@ -14,37 +16,12 @@ const double sheet_gate = 0.05, sheet_least_height = 0.0011;
 /* POV-Ray takes light colours up to here. */
 static const double largest_colour = 1e37;
 
-double sheet_edge(const struct slab *slab, int axis) {
-  return slab_spacing(slab, axis) * slab->samples[axis];
-}
-
-static double peak_of(const struct slab *slab) {
-  double peak = 0;
-  size_t values = 3 * slab_sample_count(slab);
-  for (size_t k = 0; k < values; ++k) peak = fmax(peak, slab->rgb[k]);
-  return peak;
-}
-
 static double faintest_of(const struct slab *slab) {
   double faintest = INFINITY;
   size_t values = 3 * slab_sample_count(slab);
   for (size_t k = 0; k < values; ++k)
     if (slab->rgb[k] > 0) faintest = fmin(faintest, slab->rgb[k]);
   return faintest;
-}
-
-/* A filter cannot take away more light than there is. */
-static enum slab_result check_radiance(const struct slab *slab, int page,
-                                       struct slab_error *error) {
-  size_t values = 3 * slab_sample_count(slab), k = 0;
-  int at[SLAB_AXES];
-  while (k < values && !(slab->rgb[k] < 0)) ++k;
-  if (k == values) return SLAB_OK;
-  slab_locate(slab, k / 3, at);
-  return slab_fail(error, SLAB_BAD,
-                   "page %d: radiance %g of sample (%d, %d, %d, %d) is negative, which a filter "
-                   "before a light cannot show; give include a slab without negative light",
-                   page + 1, (double)slab->rgb[k], at[SLAB_U], at[SLAB_V], at[SLAB_S], at[SLAB_T]);
 }
 
 static int view_is_lit(const struct slab *slab, int i, int j) {
@@ -89,7 +66,7 @@ static enum slab_result check_colour(const struct sheet_level *level, int page,
                                      struct slab_error *error) {
   const struct slab *views = &level->views;
   double du = slab_spacing(views, SLAB_U), dv = slab_spacing(views, SLAB_V);
-  double fade = 1e-3 * fmax(sheet_edge(views, SLAB_U), sheet_edge(views, SLAB_V));
+  double fade = 1e-3 * plane_width(views);
   double colour = level->peak * (du / fade) * (dv / fade) / (2 * M_PI);
   if (colour <= largest_colour) return SLAB_OK;
   return slab_fail(error, SLAB_BAD,
@@ -105,7 +82,7 @@ static enum slab_result make_level(const struct slab *slab, int page, const int 
   enum slab_result result = slab_resample(slab, samples, &level->views, error);
   if (result == SLAB_OK) result = make_mask(level, error);
   if (result != SLAB_OK) return result;
-  level->peak = peak_of(&level->views);
+  level->peak = include_peak(&level->views);
   level->height = sheet_height(&level->views);
   return check_colour(level, page, error);
 }
@@ -144,17 +121,16 @@ enum slab_result sheet_make(const struct slab *slabs, int count, int lights, str
   sheet->pages = calloc((size_t)count, sizeof *sheet->pages);
   if (!sheet->pages) return slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int k = 0; k < count; ++k) {
-    enum slab_result result = check_radiance(&slabs[k], k, error);
+    enum slab_result result = include_check_radiance(&slabs[k], k, error);
     if (result != SLAB_OK) return result;
-    if (peak_of(&slabs[k]) <= 0) {
+    if (include_peak(&slabs[k]) <= 0) {
       ++sheet->black_pages;
       continue;
     }
     result = make_page(&slabs[k], k, lights, &sheet->pages[sheet->page_count++], error);
     if (result != SLAB_OK) return result;
   }
-  if (!sheet->page_count)
-    return slab_fail(error, SLAB_BAD, "all radiance is zero: the lamp gives no light");
+  if (!sheet->page_count) return include_no_light(error);
   return sheet_paint(sheet, error);
 }
 

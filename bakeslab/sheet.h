@@ -19,6 +19,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "include_text.h"
 #include "slab.h"
 #include "slab_exr.h"
 
@@ -62,16 +63,6 @@ struct sheet {
 
 enum { SHEET_CHECK_SIZE = 3, SHEET_RING = 1 };
 
-/* What the include's text says besides the light itself. */
-struct sheet_text {
-  const char *name; /* an identifier, capitalised: Desk_Lamp */
-  const char *file; /* names of the include and its image, without folders */
-  const char *image;
-  const char *command;  /* that made them */
-  const char *housing;  /* SDL of the visible lamp, or NULL */
-  int housing_left_out; /* there was one, which is not safe to use */
-};
-
 /* Builds levels, errors and image from the slabs of one lamp, with at most
  * `lights` lights an axis (0: all). Refuses negative radiance, light that
  * POV-Ray's numbers cannot hold, and a lamp without any light. Free with
@@ -80,19 +71,11 @@ enum slab_result sheet_make(const struct slab *slabs, int count, int lights, str
                             struct slab_error *error);
 void sheet_free(struct sheet *sheet);
 
-/* Length of the aperture's edge along SLAB_U or SLAB_V. */
-double sheet_edge(const struct slab *slab, int axis);
-
 /* sheet_image.c: places the levels' tiles and paints them. */
 enum slab_result sheet_paint(struct sheet *sheet, struct slab_error *error);
 
-/* FNV-1a over 64 bits: the hash of `bytes` after that of what came before; start with
- * sheet_hash_start. */
-extern const uint64_t sheet_hash_start;
-uint64_t sheet_hash(uint64_t before, const void *bytes, size_t count);
-
 /* sheet_text.c: the include file. The caller checks the stream. */
-void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE *out);
+void sheet_print(const struct sheet *sheet, const struct include_text *text, FILE *out);
 
 /* sheet_macros.c: the macros of the include, with @ for the lamp's name. */
 extern const char sheet_macros[];

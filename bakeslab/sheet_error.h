@@ -13,4 +13,9 @@
 enum slab_result sheet_measure(const struct slab *slab, struct sheet_level *levels, int count,
                                struct slab_error *error);
 
+/* The same at one distance, in aperture widths; `errors` has room for one more
+ * than the levels. */
+void sheet_measure_at(const struct slab *slab, const struct sheet_level *levels, int count,
+                      double distance, double *errors);
+
 #endif

@@ -68,31 +68,24 @@ static void paint_tile(const struct sheet_level *level, int i, int j,
     }
 }
 
-const uint64_t sheet_hash_start = 14695981039346656037u;
-
-uint64_t sheet_hash(uint64_t hash, const void *bytes, size_t count) {
-  const unsigned char *byte = bytes;
-  for (size_t k = 0; k < count; ++k) hash = (hash ^ byte[k]) * 1099511628211u;
-  return hash;
-}
-
 /* What the image and the numbers of the include hold. */
 static uint64_t stamp_of(const struct sheet *sheet) {
   const struct slab_picture *picture = &sheet->picture;
-  uint64_t hash = sheet_hash(sheet_hash_start, picture->rgb,
-                             3 * sizeof(float) * (size_t)picture->width * (size_t)picture->height);
+  uint64_t hash =
+      include_hash(include_hash_start, picture->rgb,
+                   3 * sizeof(float) * (size_t)picture->width * (size_t)picture->height);
   for (int p = 0; p < sheet->page_count; ++p)
     for (int k = 0; k < sheet->pages[p].level_count; ++k) {
       const struct sheet_level *level = &sheet->pages[p].levels[k];
       const struct slab *slab = &level->views;
-      hash = sheet_hash(hash, slab->samples, sizeof slab->samples);
-      hash = sheet_hash(hash, slab->center, sizeof slab->center);
-      hash = sheet_hash(hash, slab->u, sizeof slab->u);
-      hash = sheet_hash(hash, slab->v, sizeof slab->v);
-      hash = sheet_hash(hash, slab->normal, sizeof slab->normal);
-      hash = sheet_hash(hash, slab->st_window, sizeof slab->st_window);
-      hash = sheet_hash(hash, &slab->st_distance, sizeof slab->st_distance);
-      hash = sheet_hash(hash, &level->peak, sizeof level->peak);
+      hash = include_hash(hash, slab->samples, sizeof slab->samples);
+      hash = include_hash(hash, slab->center, sizeof slab->center);
+      hash = include_hash(hash, slab->u, sizeof slab->u);
+      hash = include_hash(hash, slab->v, sizeof slab->v);
+      hash = include_hash(hash, slab->normal, sizeof slab->normal);
+      hash = include_hash(hash, slab->st_window, sizeof slab->st_window);
+      hash = include_hash(hash, &slab->st_distance, sizeof slab->st_distance);
+      hash = include_hash(hash, &level->peak, sizeof level->peak);
     }
   return hash;
 }

@@ -1,9 +1,9 @@
 /* sheet_text.c - the include file: what it is, the lamp's numbers, its macros. */
 #include "sheet.h"
 
-#include <inttypes.h>
 #include <math.h>
-#include <string.h>
+
+#include "plane.h"
 
 /* Relative to the peak: smallest half with full precision, and half of the
  * smallest above zero. */
@@ -11,80 +11,6 @@ static const double half_normal = 6.1e-5, half_zero = 3e-8;
 
 /* POV-Ray drops what a light adds below this in every channel. */
 static const double dropped = 1e-10;
-
-/* Prints `template` with @ replaced by the lamp's name. */
-static void print_named(const char *template, const char *name, FILE *out) {
-  for (; *template; ++template) {
-    if (*template == '@')
-      fputs(name, out);
-    else
-      putc(*template, out);
-  }
-}
-
-/* A string of SDL: POV-Ray knows \" and \\. */
-static void print_string(const char *text, FILE *out) {
-  putc('"', out);
-  for (; *text; ++text) {
-    if (*text == '"' || *text == '\\') putc('\\', out);
-    putc(*text, out);
-  }
-  putc('"', out);
-}
-
-/* In a comment, a control character must not end the line. */
-static void print_comment(const char *text, FILE *out) {
-  for (; *text; ++text) putc((unsigned char)*text < ' ' || *text == 0x7f ? '?' : *text, out);
-}
-
-static void print_usage(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
-  const struct slab *slab = &sheet->pages[0].levels[0].views;
-  fputs("// Persistence of Vision Ray Tracer Scene Include File\n// File:    ", out);
-  print_comment(text->file, out);
-  fputs(", with its image ", out);
-  print_comment(text->image, out);
-  fprintf(out,
-          " beside it\n"
-          "// For:     POV-Ray 3.7 or later; nothing else is needed to render\n"
-          "// Desc:    canned light source %s: a lamp that was simulated once, as the\n"
-          "//          light that leaves its aperture. One point light on each sample of\n"
-          "//          the aperture; a sheet just before them filters each ray.\n"
-          "// Licence: CC0 1.0, public domain: use it as you like\n"
-          "// Made by: ",
-          text->name);
-  print_comment(text->command, out);
-  fputs("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include \"", out);
-  print_comment(text->file, out);
-  print_named("\"\n"
-              "//          object { @_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
-              "//\n"
-              "// @_Canned(Scale, Gain)\n"
-              "//   Scale: size of the lamp at the same radiance. Rotate, translate and mirror\n"
-              "//   the object at will, but never `scale' it: POV-Ray does not scale lights.\n"
-              "//   Gain: multiplies the radiance; a number or a colour.\n",
-              text->name, out);
-  print_named(text->housing
-                  ? "// @_Canned_Case()\n"
-                    "//   The visible lamp, at Scale 1, for pictures in which it is seen.\n"
-                  : "// @_Canned_Case() is not declared: the lamp came without a housing",
-              text->name, out);
-  if (!text->housing) fputs(text->housing_left_out ? " that could be used.\n" : ".\n", out);
-  print_named("//\n"
-              "// Declare before the #include, where the default does not suit:\n"
-              "//   @_Lights\n"
-              "//          at most so many lights an axis; fewer are faster and less exact\n"
-              "//          (tables below). May be changed between two lamps.\n"
-              "//   @_Sheet_File\n"
-              "//          path of the image, which POV-Ray looks for in the working folder\n"
-              "//          and in Library_Path, not beside this file.\n"
-              "//\n",
-              text->name, out);
-  fprintf(out,
-          "// Units:   1 unit is %.6g m at Scale 1; radiance: %s. A surface of pigment P,\n"
-          "//          diffuse 1, shows the radiance P*E/pi; phong and specular highlights\n"
-          "//          are POV-Ray's, which have no 1/pi.\n",
-          slab->metres_per_unit, slab->radiance_unit);
-}
 
 static void print_limits(const struct sheet *sheet, FILE *out) {
   fputs("// Limits:  Surfaces may not come closer to the aperture than the sheet (tables\n"
@@ -110,7 +36,7 @@ static void print_faint(const struct sheet_page *page, FILE *out) {
   const struct slab *views = &finest->views;
   double reach = sqrt(finest->peak * slab_spacing(views, SLAB_U) * slab_spacing(views, SLAB_V) /
                       (M_PI * dropped));
-  if (reach < 1e3 * fmax(sheet_edge(views, SLAB_U), sheet_edge(views, SLAB_V)))
+  if (reach < 1e3 * plane_width(views))
     fprintf(out,
             "//   POV-Ray drops what is too faint (1e-10): even the brightest rays of a light\n"
             "//   end %.2g units away. Raise Gain, and lower the picture's exposure.\n",
@@ -122,7 +48,7 @@ static void print_table(const struct sheet *sheet, FILE *out) {
     const struct sheet_page *page = &sheet->pages[p];
     const struct slab *slab = &page->levels[0].views;
     fprintf(out, "//\n// Page %d: aperture %.6g x %.6g, %d x %d slopes %.4g..%.4g x %.4g..%.4g",
-            p + 1, sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V), slab->samples[SLAB_S],
+            p + 1, plane_edge(slab, SLAB_U), plane_edge(slab, SLAB_V), slab->samples[SLAB_S],
             slab->samples[SLAB_T], slab->st_window[0], slab->st_window[1], slab->st_window[2],
             slab->st_window[3]);
     if (isfinite(slab->st_distance)) fprintf(out, ", st plane at %.6g", slab->st_distance);
@@ -145,7 +71,7 @@ static void print_table(const struct sheet *sheet, FILE *out) {
   }
 }
 
-static void print_frames(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+static void print_frames(const struct sheet *sheet, const struct include_text *text, FILE *out) {
   fputs("// One line a page: |u|, |v|, samples and range of s, samples and range of t,\n"
         "// 1/distance of the st plane, first of its levels.\n",
         out);
@@ -154,7 +80,7 @@ static void print_frames(const struct sheet *sheet, const struct sheet_text *tex
     const struct slab *slab = &sheet->pages[p].levels[0].views;
     const double *w = slab->st_window;
     fprintf(out, "  { %.15g, %.15g, %d, %.15g, %.15g, %d, %.15g, %.15g, %.15g, %d }%s\n",
-            sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V), slab->samples[SLAB_S], w[0], w[1],
+            plane_edge(slab, SLAB_U), plane_edge(slab, SLAB_V), slab->samples[SLAB_S], w[0], w[1],
             slab->samples[SLAB_T], w[2], w[3], slab_kappa(slab), first,
             p + 1 < sheet->page_count ? "," : "");
     first += sheet->pages[p].level_count;
@@ -166,7 +92,7 @@ static void print_frames(const struct sheet *sheet, const struct sheet_text *tex
   for (int p = 0; p < sheet->page_count; ++p) {
     const struct slab *slab = &sheet->pages[p].levels[0].views;
     const double *vectors[4] = {slab->u, slab->v, slab->normal, slab->center};
-    const double sizes[4] = {sheet_edge(slab, SLAB_U), sheet_edge(slab, SLAB_V), 1, 1};
+    const double sizes[4] = {plane_edge(slab, SLAB_U), plane_edge(slab, SLAB_V), 1, 1};
     fputs("  { ", out);
     for (int k = 0; k < 4; ++k)
       fprintf(out, "<%.15g, %.15g, %.15g>%s", vectors[k][0] / sizes[k], vectors[k][1] / sizes[k],
@@ -176,7 +102,7 @@ static void print_frames(const struct sheet *sheet, const struct sheet_text *tex
   fputs("}\n\n", out);
 }
 
-static void print_levels(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+static void print_levels(const struct sheet *sheet, const struct include_text *text, FILE *out) {
   int levels = 0, rows = 0;
   for (int p = 0; p < sheet->page_count; ++p) levels += sheet->pages[p].level_count;
   fprintf(out,
@@ -206,94 +132,44 @@ static void print_levels(const struct sheet *sheet, const struct sheet_text *tex
   fputs("}\n\n", out);
 }
 
-/* The image, and a look at its check texels (sheet_image.c): where assumed_gamma
- * is not 1, POV-Ray changes what it reads unless told a gamma that undoes it. */
-static void print_image(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
+static void print_head(const struct sheet *sheet, const struct include_text *text, FILE *out) {
+  include_head(text,
+               "One point light on each sample of\n"
+               "//          the aperture; a sheet just before them filters each ray.\n",
+               "//   @_Lights\n"
+               "//          at most so many lights an axis; fewer are faster and less exact\n"
+               "//          (tables below). May be changed between two lamps.\n"
+               "//   @_Sheet_File\n"
+               "//          path of the image, which POV-Ray looks for in the working folder\n"
+               "//          and in Library_Path, not beside this file.\n",
+               out);
+  include_units(&sheet->pages[0].levels[0].views, out);
+}
+
+static void print_image(const struct sheet *sheet, const struct include_text *text, FILE *out) {
   const struct slab_picture *picture = &sheet->picture;
-  print_named(
-      "#if (!file_exists(@_Sheet_File))\n"
-      "  #error concat(\"@_Canned: no image \", @_Sheet_File, \": put it into the scene's\",\n"
-      "    \" folder, or declare @_Sheet_File before the #include\\n\")\n"
-      "#end\n",
-      text->name, out);
-  fprintf(out, "#declare %s_Image_Size = <%d, %d, 0>;\n", text->name, picture->width,
+  struct include_check check = {
+      .at = {(sheet->check_left + SHEET_CHECK_SIZE / 2.0) / picture->width,
+             (sheet->check_bottom + SHEET_CHECK_SIZE / 2.0) / picture->height, 0}};
+  for (int c = 0; c < 3; ++c) check.rgb[c] = (double)sheet->check[c];
+  include_image(text, "", &check, out);
+  fprintf(out, "#declare %s_Image_Size = <%d, %d, 0>;\n\n", text->name, picture->width,
           picture->height);
-  fprintf(out, "#local Check_ = <%.9g, %.9g, 0>;  // where the image holds %.10g, %.10g, %.10g\n",
-          (sheet->check_left + SHEET_CHECK_SIZE / 2.0) / picture->width,
-          (sheet->check_bottom + SHEET_CHECK_SIZE / 2.0) / picture->height, (double)sheet->check[0],
-          (double)sheet->check[1], (double)sheet->check[2]);
-  print_named(
-      "#declare @_Sheet = pigment { image_map { exr @_Sheet_File interpolate 2 filter all 1 } };\n"
-      "#local Look_ = function { pigment { @_Sheet } };\n"
-      "#local Seen_ = Look_(Check_.x, Check_.y, 0);\n",
-      text->name, out);
-  fprintf(out, "#if (Seen_.red > 0 & Seen_.red < 1 & abs(Seen_.red - %g) > 1e-4)\n",
-          (double)sheet->check[0]);
-  fprintf(out, "  #local Gamma_ = ln(%g)/ln(Seen_.red);  // the scene's assumed_gamma: undo it\n",
-          (double)sheet->check[0]);
-  print_named("  #declare @_Sheet = pigment { image_map { exr @_Sheet_File gamma Gamma_\n"
-              "    interpolate 2 filter all 1 } };\n"
-              "  #undef Look_\n"
-              "  #local Look_ = function { pigment { @_Sheet } };\n"
-              "  #local Seen_ = Look_(Check_.x, Check_.y, 0);\n"
-              "#end\n",
-              text->name, out);
-  fprintf(out,
-          "#if (vlength(<Seen_.red, Seen_.green, Seen_.blue> - <%.10g, %.10g, %.10g>) > 4e-4)\n",
-          (double)sheet->check[0], (double)sheet->check[1], (double)sheet->check[2]);
-  print_named(
-      "  #error concat(\"@_Canned: \", @_Sheet_File, \" is not the image that was made with \",\n"
-      "    \"this include; make both anew with `bakeslab include'\\n\")\n"
-      "#end\n\n",
-      text->name, out);
 }
 
-/* Only the first of two includes of one name declares it; the second finds out whether
- * it is the same lamp. */
-static uint64_t stamp_of(const struct sheet *sheet, const struct sheet_text *text) {
-  if (!text->housing) return sheet->stamp;
-  return sheet_hash(sheet->stamp, text->housing, strlen(text->housing));
-}
-
-static void print_guard_end(uint64_t stamp, const char *name, FILE *out) {
-  print_named("\n#version @_Canned_Inc_Temp;\n"
-              "#else\n"
-              "  #if (strcmp(@_Stamp, \"",
-              name, out);
-  fprintf(out, "%016" PRIx64, stamp);
-  print_named("\") != 0)\n"
-              "    #error concat(\"@_Canned: another lamp of this name is included already; \",\n"
-              "      \"make one anew with `bakeslab include --name'\\n\")\n"
-              "  #end\n"
-              "#end\n",
-              name, out);
-}
-
-void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE *out) {
-  const uint64_t stamp = stamp_of(sheet, text);
+void sheet_print(const struct sheet *sheet, const struct include_text *text, FILE *out) {
   int most = 1;
   for (int p = 0; p < sheet->page_count; ++p)
     for (int axis = SLAB_U; axis <= SLAB_V; ++axis) {
       int lights = sheet->pages[p].levels[0].views.samples[axis];
       most = lights > most ? lights : most;
     }
-  print_usage(sheet, text, out);
+  print_head(sheet, text, out);
   print_limits(sheet, out);
   print_table(sheet, out);
-  print_named("\n#ifndef(@_Canned_Inc_Temp)\n"
-              "#declare @_Canned_Inc_Temp = version;\n"
-              "#version 3.7;\n"
-              "#ifdef(View_POV_Include_Stack)\n"
-              "  #debug \"including ",
-              text->name, out);
-  fprintf(out, "%s_Canned\\n\"\n#end\n\n", text->name);
-  fprintf(out, "#declare %s_Stamp = \"%016" PRIx64 "\";  // of this lamp's data\n", text->name,
-          stamp);
-  print_named("#ifndef(@_Lights) #declare @_Lights = ", text->name, out);
-  fprintf(out, "%d; #end\n", most);
-  print_named("#ifndef(@_Sheet_File) #declare @_Sheet_File = ", text->name, out);
-  print_string(text->image, out);
-  fputs("; #end\n\n", out);
+  include_begin(text, sheet->stamp, out);
+  include_named("#ifndef(@_Lights) #declare @_Lights = ", text->name, out);
+  fprintf(out, "%d; #end\n\n", most);
   print_frames(sheet, text, out);
   print_levels(sheet, text, out);
   print_image(sheet, text, out);
@@ -302,10 +178,6 @@ void sheet_print(const struct sheet *sheet, const struct sheet_text *text, FILE 
           "// through an opening this share of its height away .\n"
           "#declare %s_Least_Height = %g;\n#declare %s_Gate = %g;\n\n",
           text->name, sheet_least_height, text->name, sheet_gate);
-  print_named(sheet_macros, text->name, out);
-  if (text->housing) {
-    print_named("\n#macro @_Canned_Case()\n", text->name, out);
-    fprintf(out, "%s\n#end\n", text->housing);
-  }
-  print_guard_end(stamp, text->name, out);
+  include_named(sheet_macros, text->name, out);
+  include_end(text, sheet->stamp, out);
 }

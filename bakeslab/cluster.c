@@ -1,0 +1,178 @@
+/* cluster.c - how many lights each page of a lamp gets, and how good they are.
+ *
+ * A page starts with one light; the number doubles, each time with a fit of all,
+ * so that more lights are never a worse start than fewer. */
+#include "cluster.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "include_light.h"
+#include "include_text.h"
+#include "plane.h"
+
+const double cluster_distances[CLUSTER_DISTANCES] = {1, 4, 16};
+
+/* POV-Ray takes light colours up to here; the include divides by 2 pi fade^2. */
+static const double largest_colour = 1e37;
+
+int cluster_light_count(const struct cluster *cluster) {
+  int count = 0;
+  for (int p = 0; p < cluster->page_count; ++p) count += cluster->pages[p].count;
+  return count;
+}
+
+int cluster_point_count(const struct cluster *cluster) {
+  int points = 0;
+  for (int p = 0; p < cluster->page_count; ++p)
+    for (int k = 0; k < cluster->pages[p].count; ++k)
+      points += cluster->pages[p].lights[k].size[0] * cluster->pages[p].lights[k].size[1];
+  return points;
+}
+
+double cluster_worst_error(const struct cluster *cluster) {
+  double worst = 0;
+  for (int p = 0; p < cluster->page_count; ++p) worst = fmax(worst, cluster->pages[p].error_at);
+  return worst;
+}
+
+/* One page on the way: what it is fitted to. */
+struct work {
+  const struct slab *slab;
+  struct cluster_target target;
+  struct cluster_light *candidates;
+  int candidate_count;
+  double unit;
+};
+
+static enum slab_result grow_page(const struct work *work, int wanted, double distance,
+                                  struct cluster_page *page, struct slab_error *error) {
+  enum slab_result result = cluster_grow(&work->target, work->candidates, work->candidate_count,
+                                         page->lights, &page->count, wanted, error);
+  if (result == SLAB_OK) result = cluster_fit(&work->target, page->lights, &page->count, error);
+  if (result != SLAB_OK) return result;
+  struct cluster_light lights[CLUSTER_MOST_LIGHTS];
+  memcpy(lights, page->lights, (size_t)page->count * sizeof *lights);
+  for (int k = 0; k < page->count; ++k)
+    for (int c = 0; c < 3; ++c) lights[k].rgb[c] *= work->unit;
+  page->error_at = cluster_error(work->slab, lights, page->count, distance);
+  return SLAB_OK;
+}
+
+/* The lights for good: in the slab's units, with their errors. */
+static enum slab_result finish_page(const struct work *work, int number, struct cluster_page *page,
+                                    struct slab_error *error) {
+  double most = 0, fade = 1e-3;
+  for (int k = 0; k < page->count; ++k)
+    for (int c = 0; c < 3; ++c) {
+      page->lights[k].rgb[c] *= work->unit;
+      most = fmax(most, page->lights[k].rgb[c]);
+    }
+  if (!(most / (2 * M_PI * fade * fade) <= largest_colour))
+    return slab_fail(error, SLAB_BAD,
+                     "page %d: it is brighter than POV-Ray's light colours hold (1e37); use a "
+                     "larger radiance unit",
+                     number + 1);
+  for (int d = 0; d < CLUSTER_DISTANCES; ++d)
+    page->error[d] = cluster_error(work->slab, page->lights, page->count, cluster_distances[d]);
+  page->frame = *work->slab;
+  page->frame.rgb = NULL;
+  page->frame.json = NULL;
+  slab_flux(work->slab, page->flux);
+  return SLAB_OK;
+}
+
+static enum slab_result make_page(const struct slab *slab, int number, int lights, double tolerance,
+                                  double distance, struct cluster_page *page,
+                                  struct slab_error *error) {
+  struct work work = {.slab = slab};
+  int most = lights > 0 ? lights : CLUSTER_MOST_LIGHTS;
+  page->lights = calloc((size_t)CLUSTER_MOST_LIGHTS, sizeof *page->lights);
+  enum slab_result result = page->lights ? SLAB_OK : slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (result == SLAB_OK)
+    result = cluster_target_make(slab, distance, &work.unit, &work.target, error);
+  if (result == SLAB_OK)
+    result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
+  for (int wanted = 1; result == SLAB_OK; wanted = 2 * wanted < most ? 2 * wanted : most) {
+    result = grow_page(&work, wanted, distance, page, error);
+    if (wanted >= most || (lights == 0 && page->error_at <= tolerance)) break;
+  }
+  if (result == SLAB_OK) result = finish_page(&work, number, page, error);
+  free(work.candidates);
+  cluster_target_free(&work.target);
+  return result;
+}
+
+static double brightness(const struct slab *slab) {
+  double flux[3];
+  slab_flux(slab, flux);
+  return flux[0] + flux[1] + flux[2];
+}
+
+/* Shares `lights` among the pages by flux, the next to the page with most of it a
+ * light. One each, if there are too few. */
+static void share_lights(const struct slab *slabs, const int *lit, int count, int lights,
+                         int *shares) {
+  double fluxes[CLUSTER_MOST_PAGES];
+  for (int p = 0; p < count; ++p) {
+    shares[p] = 1;
+    fluxes[p] = brightness(&slabs[lit[p]]);
+  }
+  for (int left = lights - count; left > 0; --left) {
+    int best = -1;
+    for (int p = 0; p < count; ++p)
+      if (shares[p] < CLUSTER_MOST_LIGHTS &&
+          (best < 0 || fluxes[p] / shares[p] > fluxes[best] / shares[best]))
+        best = p;
+    if (best < 0) return;
+    ++shares[best];
+  }
+}
+
+static uint64_t stamp_of(const struct cluster *cluster) {
+  uint64_t hash = include_hash_start;
+  for (int p = 0; p < cluster->page_count; ++p) {
+    const struct cluster_page *page = &cluster->pages[p];
+    const double *vectors[4] = {page->frame.u, page->frame.v, page->frame.normal,
+                                page->frame.center};
+    for (int k = 0; k < 4; ++k) hash = include_hash(hash, vectors[k], 3 * sizeof(double));
+    for (int k = 0; k < page->count; ++k)
+      hash = include_hash(hash, &page->lights[k], sizeof page->lights[k]);
+  }
+  return hash;
+}
+
+enum slab_result cluster_make(const struct slab *slabs, int count, int lights, double tolerance,
+                              double distance, struct cluster *cluster, struct slab_error *error) {
+  int lit[CLUSTER_MOST_PAGES], shares[CLUSTER_MOST_PAGES] = {0}, lit_count = 0;
+  memset(cluster, 0, sizeof *cluster);
+  cluster->distance = distance;
+  for (int k = 0; k < count; ++k) {
+    enum slab_result result = include_check_radiance(&slabs[k], k, error);
+    if (result != SLAB_OK) return result;
+    if (include_peak(&slabs[k]) <= 0) continue;
+    if (lit_count == CLUSTER_MOST_PAGES)
+      return slab_fail(error, SLAB_BAD, "more than %d pages are too many for a cluster",
+                       CLUSTER_MOST_PAGES);
+    lit[lit_count++] = k;
+  }
+  cluster->black_pages = count - lit_count;
+  if (!lit_count) return include_no_light(error);
+  if (lights > 0) share_lights(slabs, lit, lit_count, lights, shares);
+  cluster->pages = calloc((size_t)lit_count, sizeof *cluster->pages);
+  if (!cluster->pages) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  for (int p = 0; p < lit_count; ++p) {
+    enum slab_result result = make_page(&slabs[lit[p]], lit[p], shares[p], tolerance, distance,
+                                        &cluster->pages[cluster->page_count++], error);
+    if (result != SLAB_OK) return result;
+  }
+  cluster->stamp = stamp_of(cluster);
+  return SLAB_OK;
+}
+
+void cluster_free(struct cluster *cluster) {
+  for (int p = 0; p < cluster->page_count; ++p) free(cluster->pages[p].lights);
+  free(cluster->pages);
+  memset(cluster, 0, sizeof *cluster);
+}

@@ -1,0 +1,144 @@
+/* cluster.h - a slab as a few POV-Ray area lights, without an image.
+ *
+ * Each light is a parallelogram of the aperture whose points shine alike, with a
+ * spotlight's lobe: of a ray at the angle theta to the lobe's axis, and with
+ * c = cos(theta), the intensity is
+ *     rgb c^tightness p^2 (3 - 2p),  p = (c - cos_falloff) / (cos_radius - cos_falloff)
+ * between the cones of falloff and radius, rgb c^tightness inside, nothing outside.
+ * With both cones at 90 degrees that is exactly c^tightness. No cone reaches behind
+ * the aperture's plane, so that all light leaves through the aperture.
+ *
+ * The lights are found in two steps: cluster_seed.c groups the slab's 4D cells by
+ * energy, cluster_fit.c refines all numbers against the slab's irradiance on planes
+ * at several distances. Nothing is random.
+ *
+ * Lengths are in aperture widths (longer edge), x along u and y along v. */
+#ifndef CLUSTER_H
+#define CLUSTER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "slab.h"
+
+enum {
+  CLUSTER_MOST_LIGHTS = 64,
+  CLUSTER_MOST_SAMPLES = 128,
+  CLUSTER_MOST_PAGES = 64,
+  CLUSTER_DISTANCES = 3
+};
+
+/* Distances at which the error is told, in aperture widths. */
+extern const double cluster_distances[CLUSTER_DISTANCES];
+
+struct cluster_light {
+  double center[2], edge[2][2]; /* of the parallelogram; full edges */
+  double axis[2];               /* slopes of the lobe's axis */
+  double tightness, cos_radius, cos_falloff;
+  double rgb[3]; /* radiance times widths squared */
+  int size[2];   /* points along its edges, powers of 2 */
+};
+
+struct cluster_page {
+  struct slab frame;            /* geometry of the page, without samples or text */
+  struct cluster_light *lights; /* owned */
+  int count;
+  double flux[3];                  /* at Scale 1, in lamp units, of slab and lights alike */
+  double error[CLUSTER_DISTANCES]; /* relative RMSE of the irradiance */
+  double error_at;                 /* the same at the distance asked for */
+};
+
+struct cluster {
+  struct cluster_page *pages; /* owned */
+  int page_count;
+  int black_pages; /* pages left out because they hold no light */
+  double distance; /* asked for, in aperture widths */
+  uint64_t stamp;  /* hash of all that the include says of the lights */
+};
+
+/* Fits the pages of one lamp with `lights` lights in all, but at least one a
+ * page; or, where `lights` is 0, with as few as meet `tolerance` (relative RMSE)
+ * at `distance` on each page. Where none do, the most are kept, and the pages'
+ * errors say so. Refuses negative radiance and lamps without light. Free with
+ * cluster_free, also after a failure. */
+enum slab_result cluster_make(const struct slab *slabs, int count, int lights, double tolerance,
+                              double distance, struct cluster *cluster, struct slab_error *error);
+void cluster_free(struct cluster *cluster);
+
+int cluster_light_count(const struct cluster *cluster);
+int cluster_point_count(const struct cluster *cluster);    /* of all lights */
+double cluster_worst_error(const struct cluster *cluster); /* at its distance, of a page */
+
+/* cluster_light.c.
+ *
+ * Irradiance at (x, y, z) facing the aperture, and flux, of a light of rgb 1. */
+double cluster_irradiance(const struct cluster_light *light, const double at[3]);
+double cluster_flux(const struct cluster_light *light);
+
+/* What lights are fitted to: receivers, and the flux as a last one. */
+struct cluster_target {
+  double edge[2];   /* of the aperture */
+  double slopes[4]; /* the window, as seen from its centre */
+  int count;        /* of receivers, without the flux */
+  double (*at)[3];  /* owned */
+  double (*rgb)[3]; /* irradiance, count + 1; owned */
+  double *weight;   /* count + 1; owned */
+};
+
+/* cluster_target.c: receivers on planes around `distance`. Irradiance and flux
+ * are in units of `unit`, which it sets. */
+enum slab_result cluster_target_make(const struct slab *slab, double distance, double *unit,
+                                     struct cluster_target *target, struct slab_error *error);
+void cluster_target_free(struct cluster_target *target);
+
+/* cluster_light.c: what a light of rgb 1 gives to each receiver, times its weight, and
+ * to the flux; count + 1 numbers, `step` apart. */
+void cluster_rows(const struct cluster_target *target, const struct cluster_light *light,
+                  double *table, size_t step);
+
+/* Room to solve for the colours of some lights; of the results, `rest` is the
+ * target minus the lights, weighted. */
+struct cluster_system {
+  int lights;
+  double (*rgb)[3], (*rest)[3]; /* lights; rows of the target; owned, as all below */
+  double *gram, *side, *scratch;
+};
+bool cluster_system_make(int lights, int rows, struct cluster_system *system);
+void cluster_system_free(struct cluster_system *system);
+
+/* The colours, not negative, that leave least of the target; returns the squared rest.
+ * `base` is a table of the lights' rows: a row of the target a line. */
+double cluster_solve(const struct cluster_target *target, struct cluster_system *system,
+                     const double *base);
+
+/* Relative RMSE of the lights' irradiance on the plane at `distance`. */
+double cluster_error(const struct slab *slab, const struct cluster_light *lights, int count,
+                     double distance);
+
+/* cluster_seed.c: candidates for lights: groups of the slab's cells, many and few,
+ * with lobes narrower and wider; their rgb is nothing. `candidates` is owned by
+ * the caller. */
+enum slab_result cluster_seed(const struct slab *slab, double distance,
+                              struct cluster_light **candidates, int *count,
+                              struct slab_error *error);
+
+/* Points along the lights' edges: close enough for soft shadows, and affordable. */
+void cluster_set_sizes(struct cluster_light *lights, int count);
+
+/* cluster_grow.c: adds those candidates that explain most of what the lights leave
+ * of the target, until there are `wanted`. `lights`
+ * has room for them. */
+enum slab_result cluster_grow(const struct cluster_target *target,
+                              const struct cluster_light *candidates, int candidate_count,
+                              struct cluster_light *lights, int *count, int wanted,
+                              struct slab_error *error);
+
+/* cluster_fit.c: refines the lights, drops those that are dark then, and makes their
+ * flux that of the target in each channel. */
+enum slab_result cluster_fit(const struct cluster_target *target, struct cluster_light *lights,
+                             int *count, struct slab_error *error);
+
+/* cluster_light.c: leaves out lights that shine nothing; returns how many remain. */
+int cluster_drop_dark(struct cluster_light *lights, int count);
+
+#endif

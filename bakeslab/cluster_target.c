@@ -1,0 +1,97 @@
+/* cluster_target.c - receivers that see the lights and the slab. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cluster.h"
+#include "plane.h"
+
+enum { PLANES = 5, RECEIVERS = 22 };
+
+/* Planes that are fitted, as shares of the distance asked for, and how much the
+ * error on each counts. Far away all light seems to come from one point, near by
+ * a few lights cannot be right. */
+static const double shares[PLANES] = {0.25, 0.5, 1, 2, 4},
+                    weights[PLANES] = {0.25, 0.5, 1, 0.7, 0.7};
+
+/* Beyond what the slab lights, lights must be dark. */
+static const double margin = 1.25;
+
+/* The flux counts as much as this many planes. */
+static const double flux_weight = 5;
+
+static void add_plane(const struct slab *slab, const struct plane *plane, double weight,
+                      struct cluster_target *target) {
+  double width = plane_width(slab), square = 0;
+  int first = target->count;
+  for (int row = 0; row < plane->receivers; ++row)
+    for (int column = 0; column < plane->receivers; ++column) {
+      int k = target->count++;
+      double at[2];
+      plane_receiver(plane, column, row, at);
+      plane_irradiance(slab, plane->points, at, plane->distance, target->rgb[k]);
+      for (int c = 0; c < 2; ++c) target->at[k][c] = at[c] / width;
+      target->at[k][2] = plane->distance / width;
+      for (int c = 0; c < 3; ++c) square += target->rgb[k][c] * target->rgb[k][c];
+    }
+  for (int k = first; k < target->count; ++k)
+    target->weight[k] = square > 0 ? weight / sqrt(square) : 0;
+}
+
+enum slab_result cluster_target_make(const struct slab *slab, double distance, double *unit,
+                                     struct cluster_target *target, struct slab_error *error) {
+  const size_t room = PLANES * RECEIVERS * RECEIVERS + 1;
+  double width = plane_width(slab), most = 0;
+  memset(target, 0, sizeof *target);
+  for (int k = 0; k < 2; ++k) target->edge[k] = plane_edge(slab, k) / width;
+  memcpy(target->slopes, slab->st_window, sizeof target->slopes);
+  target->at = calloc(room, sizeof *target->at);
+  target->rgb = calloc(room, sizeof *target->rgb);
+  target->weight = calloc(room, sizeof *target->weight);
+  if (!target->at || !target->rgb || !target->weight)
+    return slab_fail(error, SLAB_MEMORY, "out of memory");
+  for (int p = 0; p < PLANES; ++p) {
+    struct plane plane = plane_make(slab, shares[p] * distance * width, margin, RECEIVERS);
+    add_plane(slab, &plane, weights[p], target);
+  }
+  double *flux = target->rgb[target->count];
+  slab_flux(slab, flux);
+  for (int c = 0; c < 3; ++c) {
+    flux[c] /= width * width;
+    most = fmax(most, flux[c]);
+  }
+  *unit = most;
+  for (int k = 0; k <= target->count; ++k) {
+    for (int c = 0; c < 3; ++c) target->rgb[k][c] /= most;
+    target->weight[k] *= most;
+  }
+  target->weight[target->count] = flux_weight;
+  return SLAB_OK;
+}
+
+void cluster_target_free(struct cluster_target *target) {
+  free(target->at);
+  free(target->rgb);
+  free(target->weight);
+  memset(target, 0, sizeof *target);
+}
+
+double cluster_error(const struct slab *slab, const struct cluster_light *lights, int count,
+                     double distance) {
+  double width = plane_width(slab), error = 0, size = 0;
+  struct plane plane = plane_make(slab, distance * width, margin, 0);
+  for (int row = 0; row < plane.receivers; ++row)
+    for (int column = 0; column < plane.receivers; ++column) {
+      double at[2], exact[3];
+      plane_receiver(&plane, column, row, at);
+      plane_irradiance(slab, plane.points, at, plane.distance, exact);
+      const double place[3] = {at[0] / width, at[1] / width, distance};
+      for (int c = 0; c < 3; ++c) size += exact[c] * exact[c];
+      for (int k = 0; k < count; ++k) {
+        double share = cluster_irradiance(&lights[k], place);
+        for (int c = 0; c < 3; ++c) exact[c] -= lights[k].rgb[c] * share;
+      }
+      for (int c = 0; c < 3; ++c) error += exact[c] * exact[c];
+    }
+  return size > 0 ? sqrt(error / size) : 0;
+}

@@ -1,0 +1,174 @@
+/* include_text.c - see include_text.h. */
+#include "include_text.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+void include_named(const char *template, const char *name, FILE *out) {
+  for (; *template; ++template) {
+    if (*template == '@')
+      fputs(name, out);
+    else
+      putc(*template, out);
+  }
+}
+
+/* A string of SDL: POV-Ray knows \" and \\. */
+static void print_string(const char *text, FILE *out) {
+  putc('"', out);
+  for (; *text; ++text) {
+    if (*text == '"' || *text == '\\') putc('\\', out);
+    putc(*text, out);
+  }
+  putc('"', out);
+}
+
+/* In a comment, a control character must not end the line. */
+static void print_comment(const char *text, FILE *out) {
+  for (; *text; ++text) putc((unsigned char)*text < ' ' || *text == 0x7f ? '?' : *text, out);
+}
+
+static void print_files(const struct include_text *text, FILE *out) {
+  fputs("// Persistence of Vision Ray Tracer Scene Include File\n// File:    ", out);
+  print_comment(text->file, out);
+  if (text->image) {
+    fputs(", with its image ", out);
+    print_comment(text->image, out);
+    fputs(" beside it", out);
+  }
+  putc('\n', out);
+}
+
+void include_head(const struct include_text *text, const char *description, const char *options,
+                  FILE *out) {
+  print_files(text, out);
+  fprintf(out,
+          "// For:     POV-Ray 3.7 or later; nothing else is needed to render\n"
+          "// Desc:    canned light source %s: a lamp that was simulated once, as the\n"
+          "//          light that leaves its aperture. %s"
+          "// Licence: CC0 1.0, public domain: use it as you like\n"
+          "// Made by: ",
+          text->name, description);
+  print_comment(text->command, out);
+  if (text->chosen) {
+    fputs("\n// Chosen:  ", out);
+    print_comment(text->chosen, out);
+  }
+  fputs("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include \"", out);
+  print_comment(text->file, out);
+  include_named("\"\n"
+                "//          object { @_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
+                "//\n"
+                "// @_Canned(Scale, Gain)\n"
+                "//   Scale: size of the lamp at the same radiance. Rotate, translate and mirror\n"
+                "//   the object at will, but never `scale' it: POV-Ray does not scale lights.\n"
+                "//   Gain: multiplies the radiance; a number or a colour.\n",
+                text->name, out);
+  include_named(text->housing
+                    ? "// @_Canned_Case()\n"
+                      "//   The visible lamp, at Scale 1, for pictures in which it is seen.\n"
+                    : "// @_Canned_Case() is not declared: the lamp came without a housing",
+                text->name, out);
+  if (!text->housing) fputs(text->housing_left_out ? " that could be used.\n" : ".\n", out);
+  if (!*options) return;
+  fputs("//\n// Declare before the #include, where the default does not suit:\n", out);
+  include_named(options, text->name, out);
+}
+
+void include_units(const struct slab *slab, FILE *out) {
+  fprintf(out,
+          "//\n"
+          "// Units:   1 unit is %.6g m at Scale 1; radiance: %s. A surface of pigment P,\n"
+          "//          diffuse 1, shows the radiance P*E/pi; phong and specular highlights\n"
+          "//          are POV-Ray's, which have no 1/pi.\n",
+          slab->metres_per_unit, slab->radiance_unit);
+}
+
+static uint64_t stamp_of(const struct include_text *text, uint64_t stamp) {
+  if (!text->housing) return stamp;
+  return include_hash(stamp, text->housing, strlen(text->housing));
+}
+
+void include_begin(const struct include_text *text, uint64_t stamp, FILE *out) {
+  include_named("\n#ifndef(@_Canned_Inc_Temp)\n"
+                "#declare @_Canned_Inc_Temp = version;\n"
+                "#version 3.7;\n"
+                "#ifdef(View_POV_Include_Stack)\n"
+                "  #debug \"including @_Canned\\n\"\n"
+                "#end\n\n",
+                text->name, out);
+  fprintf(out, "#declare %s_Stamp = \"%016" PRIx64 "\";  // of this lamp's data\n", text->name,
+          stamp_of(text, stamp));
+}
+
+void include_end(const struct include_text *text, uint64_t stamp, FILE *out) {
+  if (text->housing) {
+    include_named("\n#macro @_Canned_Case()\n", text->name, out);
+    fprintf(out, "%s\n#end\n", text->housing);
+  }
+  include_named("\n#version @_Canned_Inc_Temp;\n"
+                "#else\n"
+                "  #if (strcmp(@_Stamp, \"",
+                text->name, out);
+  fprintf(out, "%016" PRIx64, stamp_of(text, stamp));
+  include_named("\") != 0)\n"
+                "    #error concat(\"@_Canned: another lamp of this name is included already; \",\n"
+                "      \"make one anew with `bakeslab include --name'\\n\")\n"
+                "  #end\n"
+                "#end\n",
+                text->name, out);
+}
+
+/* Where assumed_gamma is not 1, POV-Ray changes what it reads unless told a gamma
+ * that undoes it. */
+void include_image(const struct include_text *text, const char *mapping,
+                   const struct include_check *check, FILE *out) {
+  static const char *const channels[3] = {"red", "green", "blue"};
+  const char *channel = channels[check->channel];
+  double value = check->rgb[check->channel];
+  include_named("#ifndef(@_Sheet_File) #declare @_Sheet_File = ", text->name, out);
+  print_string(text->image, out);
+  include_named(
+      "; #end\n"
+      "#if (!file_exists(@_Sheet_File))\n"
+      "  #error concat(\"@_Canned: no image \", @_Sheet_File, \": put it into the scene's\",\n"
+      "    \" folder, or declare @_Sheet_File before the #include\\n\")\n"
+      "#end\n",
+      text->name, out);
+  fprintf(out,
+          "#local Check_ = <%.9g, %.9g, %.9g>;  // where the image holds %.10g, %.10g, %.10g\n",
+          check->at[0], check->at[1], check->at[2], check->rgb[0], check->rgb[1], check->rgb[2]);
+  include_named("#declare @_Sheet = pigment { image_map { exr @_Sheet_File ", text->name, out);
+  fprintf(out, "%sinterpolate 2 filter all 1 } };\n", mapping);
+  include_named("#local Look_ = function { pigment { @_Sheet } };\n"
+                "#local Seen_ = Look_(Check_.x, Check_.y, Check_.z);\n",
+                text->name, out);
+  fprintf(out, "#if (Seen_.%s > 0 & Seen_.%s < 1 & abs(Seen_.%s - %.9g) > 1e-4)\n", channel,
+          channel, channel, value);
+  fprintf(out, "  #local Gamma_ = ln(%.9g)/ln(Seen_.%s);  // the scene's assumed_gamma: undo it\n",
+          value, channel);
+  include_named("  #declare @_Sheet = pigment { image_map { exr @_Sheet_File gamma Gamma_\n    ",
+                text->name, out);
+  fprintf(out, "%sinterpolate 2 filter all 1 } };\n", mapping);
+  include_named("  #undef Look_\n"
+                "  #local Look_ = function { pigment { @_Sheet } };\n"
+                "  #local Seen_ = Look_(Check_.x, Check_.y, Check_.z);\n"
+                "#end\n",
+                text->name, out);
+  fprintf(out,
+          "#if (vlength(<Seen_.red, Seen_.green, Seen_.blue> - <%.10g, %.10g, %.10g>) > 4e-4)\n",
+          check->rgb[0], check->rgb[1], check->rgb[2]);
+  include_named(
+      "  #error concat(\"@_Canned: \", @_Sheet_File, \" is not the image that was made with \",\n"
+      "    \"this include; make both anew with `bakeslab include'\\n\")\n"
+      "#end\n\n",
+      text->name, out);
+}
+
+const uint64_t include_hash_start = 14695981039346656037u;
+
+uint64_t include_hash(uint64_t hash, const void *bytes, size_t count) {
+  const unsigned char *byte = bytes;
+  for (size_t k = 0; k < count; ++k) hash = (hash ^ byte[k]) * 1099511628211u;
+  return hash;
+}
