@@ -1,14 +1,16 @@
 /* cmd_include.c - bakeslab include: a slab as an include that lights any
  * POV-Ray scene. */
 #include <ctype.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli.h"
+#include "cluster_text.h"
 #include "housing.h"
-#include "sheet.h"
+#include "include_choose.h"
 #include "slab_file.h"
 #include "slab_json.h"
 #include "slab_name.h"
@@ -16,7 +18,7 @@
 
 static const char help_text[] =
     "Writes LAMP.inc, an include file for stock POV-Ray 3.7, and beside it the image LAMP.exr "
-    "that it reads, which light any scene with the slab."
+    "that it reads, which light any scene with the slab. A cluster needs no image."
     "\v"
     "In a scene:\n"
     "\n"
@@ -26,24 +28,87 @@ static const char help_text[] =
     "The macro is called after the slab; Scale and Gain are its arguments. The header of the "
     "include tells what else may be set, and the error of each number of lights.\n"
     "\n"
+    "Modes:\n"
+    "  sheet    a point light on each uv sample, and an image that filters each ray: exact\n"
+    "  cluster  a few area lights fitted to the slab: faster, no image\n"
+    "  point    the far field: one light, and an image\n"
+    "  auto     the one of them, with as few lights, that is cheapest for POV-Ray within the "
+    "tolerance\n"
+    "Errors are relative RMS differences of the irradiance on planes at the distance, and "
+    "distances in widths of the aperture (its longer edge).\n"
+    "\n"
     "Examples:\n"
     "  bakeslab include desk_lamp.tif -o desk_lamp.inc\n"
     "  bakeslab include desk_lamp.tif -o small.inc --lights 4\n"
+    "  bakeslab include desk_lamp.tif -o fast.inc --mode cluster --lights 16\n"
+    "  bakeslab include desk_lamp.tif -o fast.inc --mode cluster --tolerance 0.05 --distance 4\n"
+    "  bakeslab include street_lamp.tif -o far.inc --mode auto --tolerance 0.02 --distance 40\n"
     "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light";
+
+enum { DEFAULT_CLUSTER = 16 };
+static const double default_distance = 4;
 
 struct arguments {
   const char *slab;
   const char *output;
   const char *name;
+  int modes; /* that may be made; 0: the default */
   int lights;
+  double tolerance, distance; /* 0: not given */
 };
+
+enum { KEY_TOLERANCE = 256, KEY_DISTANCE };
 
 static const struct argp_option options[] = {
     {"output", 'o', "LAMP.inc", 0, "the include to write; its image gets the ending .exr", 0},
-    {"mode", 'm', "MODE", 0, "kind of light: sheet (exact; the default)", 0},
-    {"lights", 'l', "N", 0, "at most N lights an axis (default: one on each uv sample)", 0},
+    {"mode", 'm', "MODE", 0, "kind of light: sheet (exact; the default), cluster, point or auto",
+     0},
+    {"lights", 'l', "N", 0,
+     "sheet: at most N lights an axis (default: one on each uv sample); cluster: N lights in all, "
+     "up to 64 a page (default 16)",
+     0},
+    {"tolerance", KEY_TOLERANCE, "T", 0, "as few lights as are at most T off (0.05 is 5 %)", 0},
+    {"distance", KEY_DISTANCE, "D", 0, "where T holds, in aperture widths (default 4)", 0},
     {"name", 'n', "NAME", 0, "call the lamp NAME rather than what the slab says", 0},
     {0}};
+
+static const struct {
+  const char *name;
+  int modes;
+} mode_names[] = {{"sheet", INCLUDE_SHEET},
+                  {"cluster", INCLUDE_CLUSTER},
+                  {"point", INCLUDE_POINT},
+                  {"auto", INCLUDE_ANY}};
+
+static int parse_mode(const char *value, struct argp_state *state) {
+  for (size_t k = 0; k < sizeof mode_names / sizeof *mode_names; ++k)
+    if (!strcmp(value, mode_names[k].name)) return mode_names[k].modes;
+  argp_error(state, "--mode %s: must be sheet, cluster, point or auto", value);
+  return 0;
+}
+
+static double parse_positive(const char *option, const char *value, struct argp_state *state) {
+  char *end;
+  double number = strtod(value, &end);
+  if (end == value || *end || !(number > 0) || !isfinite(number))
+    argp_error(state, "%s %s: must be a positive number", option, value);
+  return number;
+}
+
+/* Options that contradict each other. */
+static void check_arguments(const struct arguments *arguments, struct argp_state *state) {
+  if (!arguments->output) argp_error(state, "no output given; add -o LAMP.inc");
+  if (arguments->lights > 0 && arguments->tolerance > 0)
+    argp_error(state, "--lights and --tolerance: give one of them");
+  if (arguments->modes == INCLUDE_ANY && !(arguments->tolerance > 0))
+    argp_error(state, "--mode auto: needs --tolerance T, and --distance D if not 4");
+  if (arguments->lights > 0 && arguments->modes & INCLUDE_POINT)
+    argp_error(state, "--lights: the far field is one light; leave it out");
+  if (arguments->lights > CLUSTER_MOST_LIGHTS * CLUSTER_MOST_PAGES &&
+      arguments->modes == INCLUDE_CLUSTER)
+    argp_error(state, "--lights %d: a cluster has at most %d for each page", arguments->lights,
+               CLUSTER_MOST_LIGHTS);
+}
 
 static error_t parse_option(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
@@ -53,18 +118,24 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
     arguments->output = value;
     return 0;
   case 'm':
-    if (strcmp(value, "sheet")) argp_error(state, "--mode %s: only sheet is there", value);
+    arguments->modes = parse_mode(value, state);
     return 0;
   case 'l':
     if (!cli_parse_size(value, size) || size[0] != size[1])
       argp_error(state, "--lights %s: must be a whole number from 1", value);
     arguments->lights = size[0];
     return 0;
+  case KEY_TOLERANCE:
+    arguments->tolerance = parse_positive("--tolerance", value, state);
+    return 0;
+  case KEY_DISTANCE:
+    arguments->distance = parse_positive("--distance", value, state);
+    return 0;
   case 'n':
     arguments->name = value;
     return 0;
   case ARGP_KEY_SUCCESS:
-    if (!arguments->output) argp_error(state, "no output given; add -o LAMP.inc");
+    check_arguments(arguments, state);
     return 0;
   default:
     return cli_parse_slab(key, value, state, &arguments->slab);
@@ -114,25 +185,43 @@ static enum slab_result check_outputs(const char *slab, const char *include, con
   return SLAB_OK;
 }
 
+/* The image of the include; NULL where it has none. */
+static const struct slab_picture *picture_of(const struct include_choice *choice) {
+  if (choice->mode == INCLUDE_CLUSTER) return NULL;
+  return choice->mode == INCLUDE_POINT ? &choice->point.picture : &choice->sheet.picture;
+}
+
+static void print_include(const struct include_choice *choice, const struct include_text *text,
+                          FILE *out) {
+  if (choice->mode == INCLUDE_CLUSTER)
+    cluster_print(&choice->cluster, text, out);
+  else if (choice->mode == INCLUDE_POINT)
+    point_print(&choice->point, text, out);
+  else
+    sheet_print(&choice->sheet, text, out);
+}
+
 /* The include waits under its temporary name until the image is in place. */
-static enum slab_result write_files(const struct sheet *sheet, const struct include_text *text,
-                                    const char *include, const char *image,
-                                    struct slab_error *error) {
+static enum slab_result write_files(const struct include_choice *choice,
+                                    const struct include_text *text, const char *include,
+                                    const char *image, struct slab_error *error) {
   struct slab_output output = {0};
   char *content = NULL;
   size_t size = 0;
   FILE *stream = open_memstream(&content, &size);
   if (!stream) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  sheet_print(sheet, text, stream);
+  print_include(choice, text, stream);
   enum slab_result result = SLAB_OK;
   if (fclose(stream) != 0) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   if (result == SLAB_OK) result = slab_output_begin(&output, include, error);
   if (result == SLAB_OK && slab_output_write(&output, content, size, 0) != 0)
     result = slab_fail(error, SLAB_IO, "%s: %m", include);
-  if (result == SLAB_OK) result = slab_exr_write(image, &sheet->picture, 1, text->command, error);
+  const struct slab_picture *picture = picture_of(choice);
+  if (result == SLAB_OK && picture)
+    result = slab_exr_write(image, picture, 1, text->command, error);
   if (result == SLAB_OK) {
     result = slab_output_commit(&output, error);
-    if (result != SLAB_OK) unlink(image);
+    if (result != SLAB_OK && picture) unlink(image);
   }
   slab_output_abandon(&output);
   free(content);
@@ -146,39 +235,58 @@ static enum slab_result blame(const char *path, enum slab_result result, struct 
   return slab_fail(error, result, "%s: %s", path, reason.text);
 }
 
+static enum slab_result make_lights(const struct arguments *arguments, const struct slab *slabs,
+                                    int count, struct include_choice *choice,
+                                    struct slab_error *error) {
+  int modes = arguments->modes ? arguments->modes : INCLUDE_SHEET, lights = arguments->lights;
+  double distance = arguments->distance > 0 ? arguments->distance : default_distance;
+  if (arguments->tolerance > 0)
+    return include_choose(slabs, count, modes, arguments->tolerance, distance, choice, error);
+  if (modes == INCLUDE_CLUSTER && !lights) lights = DEFAULT_CLUSTER;
+  return include_make(slabs, count, (enum include_mode)modes, lights, distance, choice, error);
+}
+
+/* Says what was chosen and what is left out, and writes. */
+static enum slab_result write_include(const struct arguments *arguments, const struct slab *slab,
+                                      const char *name, const struct include_choice *choice,
+                                      const char *image, struct slab_error *error) {
+  char *housing = slab_json_get_string(slab, "provenance", "housing");
+  int harmless = housing && housing_is_harmless(housing);
+  if (*choice->why) cli_note("%s: note: %s", arguments->slab, choice->why);
+  if (housing && !harmless)
+    cli_note("%s: note: its housing is left out: it is more than an object (directives, or "
+             "braces that do not match)",
+             arguments->slab);
+  struct include_text text = {.name = name,
+                              .file = base_name(arguments->output),
+                              .image = picture_of(choice) ? base_name(image) : NULL,
+                              .command = cli_command_line(),
+                              .housing = harmless ? housing : NULL,
+                              .housing_left_out = housing && !harmless,
+                              .chosen = *choice->why ? choice->why : NULL};
+  enum slab_result result = write_files(choice, &text, arguments->output, image, error);
+  free(housing);
+  return result;
+}
+
 static enum slab_result include_slab(const struct arguments *arguments, struct slab_error *error) {
   struct slab *slabs = NULL;
   int count = 0;
-  struct sheet sheet = {0};
+  struct include_choice choice = {0};
   char name[SLAB_IDENTIFIER_SIZE];
-  char *image = image_path(arguments->output), *housing = NULL;
+  char *image = image_path(arguments->output);
   enum slab_result result = SLAB_OK;
   if (!image) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   if (result == SLAB_OK) result = check_outputs(arguments->slab, arguments->output, image, error);
   if (result == SLAB_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
   if (result == SLAB_OK) {
     result = choose_name(arguments->name, &slabs[0], name, error);
-    if (result == SLAB_OK) result = sheet_make(slabs, count, arguments->lights, &sheet, error);
+    if (result == SLAB_OK) result = make_lights(arguments, slabs, count, &choice, error);
     result = blame(arguments->slab, result, error);
   }
-  if (result == SLAB_OK) {
-    housing = slab_json_get_string(&slabs[0], "provenance", "housing");
-    int harmless = housing && housing_is_harmless(housing);
-    if (housing && !harmless)
-      cli_note("%s: note: its housing is left out: it is more than an object (directives, or "
-               "braces that do not match)",
-               arguments->slab);
-    struct include_text text = {.name = name,
-                                .file = base_name(arguments->output),
-                                .image = base_name(image),
-                                .command = cli_command_line(),
-                                .housing = harmless ? housing : NULL,
-                                .housing_left_out = housing && !harmless};
-    result = write_files(&sheet, &text, arguments->output, image, error);
-  }
-  free(housing);
+  if (result == SLAB_OK) result = write_include(arguments, &slabs[0], name, &choice, image, error);
   free(image);
-  sheet_free(&sheet);
+  include_choice_free(&choice);
   slab_file_free_all(slabs, count);
   return result;
 }

@@ -310,6 +310,19 @@ void chain_scene(const struct chain_plane *plane, const char *lights) {
   assert_int_equal(fclose(file), 0);
 }
 
+void chain_place(const struct chain_lamp *lamp, char *sdl, size_t size) {
+  size_t length = (size_t)snprintf(sdl, size, "object { Test_Lamp_Canned(%.17g, %.17g) matrix <",
+                                   lamp->scale, lamp->gain);
+  for (int k = 0; k < 12; ++k)
+    length += (size_t)snprintf(sdl + length, size - length, "%.17g%s", lamp->matrix[k],
+                               k < 11 ? ", " : "> }\n");
+}
+
+void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_t size) {
+  snprintf(sdl, size, "#include \"lamp.inc\"\n");
+  for (int k = 0; k < count; ++k) chain_place(&lamps[k], sdl + strlen(sdl), size - strlen(sdl));
+}
+
 int chain_povray(void) {
   return chain_run("povray +Iscene.pov +Oframe.exr +FE -A +WT1 -D +W%d +H%d", CHAIN_SIZE,
                    CHAIN_SIZE);

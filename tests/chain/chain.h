@@ -90,6 +90,11 @@ void chain_include(const struct slab *pages, int count, const char *name, const 
 /* Writes scene.pov: the plane, seen by pixel centres, under `lights`. */
 void chain_scene(const struct chain_plane *plane, const char *lights);
 
+/* The SDL that places "Test_Lamp_Canned" as `lamp` says; and that includes "lamp.inc"
+ * and places several. */
+void chain_place(const struct chain_lamp *lamp, char *sdl, size_t size);
+void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_t size);
+
 /* Renders scene.pov and returns POV-Ray's exit status; or reads what it made. */
 int chain_povray(void);
 void chain_render(struct slab_picture *picture);

@@ -155,7 +155,7 @@ static void test_command_line(void **state) {
   (void)state;
   struct slab slab = rough_slab();
   write_slab(&slab);
-  expect_refusal("slab.exr -o out.inc --mode cluster", 2, "--mode cluster: only sheet is there");
+  expect_refusal("slab.exr -o out.inc --mode blob", 2, "--mode blob: must be sheet, cluster");
   expect_refusal("slab.exr -o out.inc --lights 0", 2, "--lights 0: must be a whole number from 1");
   expect_refusal("slab.exr", 2, "no output given");
   expect_refusal("-o out.inc", 2, "no slab given");

@@ -53,21 +53,6 @@ static const struct setting settings[] = {
     {"1-wide s", {2, 2, 1, 12}, SQUARE, WIDE, 3, 0, 1, 1, 1},
 };
 
-/* Writes the SDL that places "Test_Lamp_Canned" as `lamp` says. */
-static void place(const struct chain_lamp *lamp, char *sdl, size_t size) {
-  size_t length = (size_t)snprintf(sdl, size, "object { Test_Lamp_Canned(%.17g, %.17g) matrix <",
-                                   lamp->scale, lamp->gain);
-  for (int k = 0; k < 12; ++k)
-    length += (size_t)snprintf(sdl + length, size - length, "%.17g%s", lamp->matrix[k],
-                               k < 11 ? ", " : "> }\n");
-}
-
-/* Includes "lamp.inc" and places the lamps. */
-static void include_lamps(const struct chain_lamp *lamps, int count, char *sdl, size_t size) {
-  snprintf(sdl, size, "#include \"lamp.inc\"\n");
-  for (int k = 0; k < count; ++k) place(&lamps[k], sdl + strlen(sdl), size - strlen(sdl));
-}
-
 /* Renders the lamps onto the plane and holds the picture against the sum. */
 static void compare(const char *what, const struct chain_lamp *lamps, int count,
                     const struct chain_plane *plane, const char *sdl) {
@@ -89,7 +74,7 @@ static void compare_setting(const struct setting *setting, uint64_t seed) {
   memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
   struct chain_plane plane = chain_facing(&lamp, 0, setting->distance);
   char sdl[1024];
-  include_lamps(&lamp, 1, sdl, sizeof sdl);
+  chain_place_all(&lamp, 1, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
   compare(setting->what, &lamp, 1, &plane, sdl);
   slab_free(&slab);
@@ -146,7 +131,7 @@ static void test_instances(void **state) {
   for (int c = 0; c < 3; ++c) lamps[1].matrix[9 + c] = 1.1 * slab.u[c] + 0.4 * slab.v[c];
   struct chain_plane plane = chain_facing(&lamps[0], 0, 1);
   char sdl[2048];
-  include_lamps(lamps, 2, sdl, sizeof sdl);
+  chain_place_all(lamps, 2, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
   compare("two instances", lamps, 2, &plane, sdl);
   snprintf(sdl, sizeof sdl,
@@ -176,7 +161,7 @@ static void test_case(void **state) {
     for (int c = 0; c < 3; ++c)
       lamps[1].matrix[9 + c] =
           away[k][0] * slab.u[c] + away[k][1] * slab.v[c] + away[k][2] * slab.normal[c];
-    include_lamps(lamps, 2, sdl, sizeof sdl);
+    chain_place_all(lamps, 2, sdl, sizeof sdl);
     compare(k ? "a lamp beside and behind" : "a lamp behind", lamps, 2, &plane, sdl);
   }
   slab_free(&slab);
@@ -189,7 +174,7 @@ static void test_pages(void **state) {
   struct chain_lamp lamp = {pages, 2, 0.8, 1, {0}, 0};
   memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
   char sdl[1024];
-  include_lamps(&lamp, 1, sdl, sizeof sdl);
+  chain_place_all(&lamp, 1, sdl, sizeof sdl);
   for (int c = 0; c < 3; ++c) {
     pages[1].center[c] = pages[0].center[c];
     pages[1].u[c] = pages[0].u[c];
@@ -233,7 +218,7 @@ static void test_lights(void **state) {
     struct chain_plane plane = chain_facing(&lamp, 0, 1);
     char sdl[1024];
     snprintf(sdl, sizeof sdl, "%s#include \"lamp.inc\"\n", cases[k].declare);
-    place(&lamp, sdl + strlen(sdl), sizeof sdl - strlen(sdl));
+    chain_place(&lamp, sdl + strlen(sdl), sizeof sdl - strlen(sdl));
     chain_include(&slab, 1, "lamp", cases[k].options);
     compare(cases[k].what, &lamp, 1, &plane, sdl);
     slab_free(&means);
@@ -254,7 +239,7 @@ static void test_black_views(void **state) {
   memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
   char sdl[1024];
-  include_lamps(&lamp, 1, sdl, sizeof sdl);
+  chain_place_all(&lamp, 1, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
   assert_int_equal(chain_run("grep -q '4x3 *4 of 12' lamp.inc"), 0);
   compare("black views", &lamp, 1, &plane, sdl);
