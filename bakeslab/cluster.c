@@ -46,23 +46,26 @@ struct work {
   double unit;
 };
 
-static enum slab_result grow_page(const struct work *work, int wanted, double distance,
-                                  struct cluster_page *page, struct slab_error *error) {
+static enum slab_result grow_page(const struct work *work, int wanted, struct cluster_page *page,
+                                  struct slab_error *error) {
   enum slab_result result = cluster_grow(&work->target, work->candidates, work->candidate_count,
                                          page->lights, &page->count, wanted, error);
-  if (result == SLAB_OK) result = cluster_fit(&work->target, page->lights, &page->count, error);
-  if (result != SLAB_OK) return result;
+  return result == SLAB_OK ? cluster_fit(&work->target, page->lights, &page->count, error) : result;
+}
+
+/* The error of lights that are in the target's units still. */
+static double error_on_the_way(const struct work *work, const struct cluster_page *page,
+                               double distance) {
   struct cluster_light lights[CLUSTER_MOST_LIGHTS];
   memcpy(lights, page->lights, (size_t)page->count * sizeof *lights);
   for (int k = 0; k < page->count; ++k)
     for (int c = 0; c < 3; ++c) lights[k].rgb[c] *= work->unit;
-  page->error_at = cluster_error(work->slab, lights, page->count, distance);
-  return SLAB_OK;
+  return cluster_error(work->slab, lights, page->count, distance);
 }
 
 /* The lights for good: in the slab's units, with their errors. */
-static enum slab_result finish_page(const struct work *work, int number, struct cluster_page *page,
-                                    struct slab_error *error) {
+static enum slab_result finish_page(const struct work *work, int number, double distance,
+                                    struct cluster_page *page, struct slab_error *error) {
   double most = 0, fade = 1e-3;
   for (int k = 0; k < page->count; ++k)
     for (int c = 0; c < 3; ++c) {
@@ -76,6 +79,7 @@ static enum slab_result finish_page(const struct work *work, int number, struct 
                      number + 1);
   for (int d = 0; d < CLUSTER_DISTANCES; ++d)
     page->error[d] = cluster_error(work->slab, page->lights, page->count, cluster_distances[d]);
+  page->error_at = cluster_error(work->slab, page->lights, page->count, distance);
   page->frame = *work->slab;
   page->frame.rgb = NULL;
   page->frame.json = NULL;
@@ -95,10 +99,11 @@ static enum slab_result make_page(const struct slab *slab, int number, int light
   if (result == SLAB_OK)
     result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
   for (int wanted = 1; result == SLAB_OK; wanted = 2 * wanted < most ? 2 * wanted : most) {
-    result = grow_page(&work, wanted, distance, page, error);
-    if (wanted >= most || (lights == 0 && page->error_at <= tolerance)) break;
+    result = grow_page(&work, wanted, page, error);
+    if (wanted >= most || result != SLAB_OK) break;
+    if (lights == 0 && error_on_the_way(&work, page, distance) <= tolerance) break;
   }
-  if (result == SLAB_OK) result = finish_page(&work, number, page, error);
+  if (result == SLAB_OK) result = finish_page(&work, number, distance, page, error);
   free(work.candidates);
   cluster_target_free(&work.target);
   return result;

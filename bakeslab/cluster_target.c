@@ -6,13 +6,17 @@
 #include "cluster.h"
 #include "plane.h"
 
-enum { PLANES = 5, RECEIVERS = 22 };
+enum { PLANES = 5 };
 
 /* Planes that are fitted, as shares of the distance asked for, and how much the
  * error on each counts. Far away all light seems to come from one point, near by
  * a few lights cannot be right. */
 static const double shares[PLANES] = {0.25, 0.5, 1, 2, 4},
                     weights[PLANES] = {0.25, 0.5, 1, 0.7, 0.7};
+
+/* Receivers an axis: different numbers, so that together they see the far field at many
+ * more directions than one plane does, and no lobe hides between them. */
+static const int receivers[PLANES] = {16, 20, 26, 23, 29};
 
 /* Beyond what the slab lights, lights must be dark. */
 static const double margin = 1.25;
@@ -40,9 +44,10 @@ static void add_plane(const struct slab *slab, const struct plane *plane, double
 
 enum slab_result cluster_target_make(const struct slab *slab, double distance, double *unit,
                                      struct cluster_target *target, struct slab_error *error) {
-  const size_t room = PLANES * RECEIVERS * RECEIVERS + 1;
+  size_t room = 1;
   double width = plane_width(slab), most = 0;
   memset(target, 0, sizeof *target);
+  for (int p = 0; p < PLANES; ++p) room += (size_t)(receivers[p] * receivers[p]);
   for (int k = 0; k < 2; ++k) target->edge[k] = plane_edge(slab, k) / width;
   memcpy(target->slopes, slab->st_window, sizeof target->slopes);
   target->at = calloc(room, sizeof *target->at);
@@ -51,7 +56,7 @@ enum slab_result cluster_target_make(const struct slab *slab, double distance, d
   if (!target->at || !target->rgb || !target->weight)
     return slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int p = 0; p < PLANES; ++p) {
-    struct plane plane = plane_make(slab, shares[p] * distance * width, margin, RECEIVERS);
+    struct plane plane = plane_make(slab, shares[p] * distance * width, margin, receivers[p]);
     add_plane(slab, &plane, weights[p], target);
   }
   double *flux = target->rgb[target->count];
