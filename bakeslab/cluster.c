@@ -17,6 +17,9 @@ const double cluster_distances[CLUSTER_DISTANCES] = {1, 4, 16};
 /* POV-Ray takes light colours up to here; the include divides by 2 pi fade^2. */
 static const double largest_colour = 1e37;
 
+/* Twice the lights help if they leave at most this share of the error. */
+static const double least_help = 0.9;
+
 int cluster_light_count(const struct cluster *cluster) {
   int count = 0;
   for (int p = 0; p < cluster->page_count; ++p) count += cluster->pages[p].count;
@@ -87,22 +90,34 @@ static enum slab_result finish_page(const struct work *work, int number, double 
   return SLAB_OK;
 }
 
+/* Grows a page up to `lights`; or, where that is 0, until it meets the tolerance, as
+ * long as twice the lights help. */
+static enum slab_result grow(const struct work *work, int lights, double tolerance, double distance,
+                             struct cluster_page *page, struct slab_error *error) {
+  int most = lights > 0 ? lights : CLUSTER_MOST_LIGHTS;
+  double best = INFINITY;
+  for (int wanted = 1, idle = 0;; wanted = 2 * wanted < most ? 2 * wanted : most) {
+    enum slab_result result = grow_page(work, wanted, page, error);
+    if (wanted >= most || result != SLAB_OK) return result;
+    if (lights > 0) continue;
+    double reached = error_on_the_way(work, page, distance);
+    idle = reached < least_help * best ? 0 : idle + 1;
+    best = fmin(best, reached);
+    if (reached <= tolerance || (idle >= 2 && reached > 2 * tolerance)) return result;
+  }
+}
+
 static enum slab_result make_page(const struct slab *slab, int number, int lights, double tolerance,
                                   double distance, struct cluster_page *page,
                                   struct slab_error *error) {
   struct work work = {.slab = slab};
-  int most = lights > 0 ? lights : CLUSTER_MOST_LIGHTS;
   page->lights = calloc((size_t)CLUSTER_MOST_LIGHTS, sizeof *page->lights);
   enum slab_result result = page->lights ? SLAB_OK : slab_fail(error, SLAB_MEMORY, "out of memory");
   if (result == SLAB_OK)
     result = cluster_target_make(slab, distance, &work.unit, &work.target, error);
   if (result == SLAB_OK)
     result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
-  for (int wanted = 1; result == SLAB_OK; wanted = 2 * wanted < most ? 2 * wanted : most) {
-    result = grow_page(&work, wanted, page, error);
-    if (wanted >= most || result != SLAB_OK) break;
-    if (lights == 0 && error_on_the_way(&work, page, distance) <= tolerance) break;
-  }
+  if (result == SLAB_OK) result = grow(&work, lights, tolerance, distance, page, error);
   if (result == SLAB_OK) result = finish_page(&work, number, distance, page, error);
   free(work.candidates);
   cluster_target_free(&work.target);

@@ -58,8 +58,8 @@ struct cluster {
 
 /* Fits the pages of one lamp with `lights` lights in all, but at least one a
  * page; or, where `lights` is 0, with as few as meet `tolerance` (relative RMSE)
- * at `distance` on each page. Where none do, the most are kept, and the pages'
- * errors say so. Refuses negative radiance and lamps without light. Free with
+ * at `distance` on each page. Where none do, or more do not help, the pages' errors
+ * say so. Refuses negative radiance and lamps without light. Free with
  * cluster_free, also after a failure. */
 enum slab_result cluster_make(const struct slab *slabs, int count, int lights, double tolerance,
                               double distance, struct cluster *cluster, struct slab_error *error);

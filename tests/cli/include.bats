@@ -1,0 +1,66 @@
+#!/usr/bin/env bats
+# bakeslab include: its modes, what they write and what they refuse.
+
+bats_require_minimum_version 1.5.0
+load slab
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return
+  one=3f800000
+  raw_slab even.tif '[2, 2, 4, 4]' 8 8 ', "name": "even"' "$one" "$one" "$one"
+}
+
+@test "a cluster has no image; a point has one; the header tells their errors" {
+  run --separate-stderr "$BAKESLAB" include even.tif -o c.inc --mode cluster --lights 2
+  [ "$status" -eq 0 ]
+  [ -z "$stderr" ]
+  [ ! -e c.exr ]
+  grep -q '^#macro Even_Canned(Scale, Gain)' c.inc
+  grep -qE 'away: [0-9.e-]+ % at 1, [0-9.e-]+ % at 4, [0-9.e-]+ % at 16' c.inc
+  run "$BAKESLAB" include even.tif -o p.inc --mode point
+  [ "$status" -eq 0 ]
+  [ -s p.exr ]
+  grep -qE 'away: [0-9.e-]+ % at 1, [0-9.e-]+ % at 4, [0-9.e-]+ % at 16' p.inc
+}
+
+@test "auto says what it chose and why, also in the header" {
+  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode auto --tolerance 0.05 --distance 40
+  [ "$status" -eq 0 ]
+  [[ $stderr == "bakeslab: even.tif: note: at 40 aperture widths, with 5 % allowed, point: "*"sheet of 1x1"*"cluster of"* ]]
+  grep -q '^// Chosen:  at 40 aperture widths, with 5 % allowed, point: ' a.inc
+}
+
+@test "a tolerance that nothing meets: which comes closest" {
+  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode auto --tolerance 1e-9 --distance 0.5
+  refused 1 "even.tif: no light is within 1e-09 at 0.5 aperture widths; closest is the " "ask for --tolerance 0."
+  [ ! -e a.inc ]
+  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode point --tolerance 1e-9 --distance 1
+  refused 1 "closest is the point: "
+}
+
+@test "radiance that lights cannot give" {
+  for mode in cluster point; do
+    raw_slab black.tif '[1, 1, 2, 2]' 2 2 '' 00000000
+    run --separate-stderr "$BAKESLAB" include black.tif -o a.inc --name x --mode $mode
+    refused 1 "black.tif: all radiance is zero"
+    raw_slab negative.tif '[1, 1, 2, 2]' 2 2 '' "$one" "$one" bf800000
+    run --separate-stderr "$BAKESLAB" include negative.tif -o a.inc --name x --mode $mode
+    refused 1 "negative.tif: page 1: radiance -1 of sample (0, 0, 0, 0) is negative"
+    [ ! -e a.inc ]
+  done
+}
+
+@test "options that contradict each other" {
+  misused() { # WHAT IT SAYS, OPTIONS...
+    local says=$1
+    shift
+    run --separate-stderr "$BAKESLAB" include even.tif -o a.inc "$@"
+    [ "$status" -eq 2 ]
+    [[ $stderr == "bakeslab include: $says"* ]]
+  }
+  misused '--mode auto: needs --tolerance T' --mode auto
+  misused '--lights and --tolerance: give one of them' --mode cluster --lights 4 --tolerance 0.1
+  misused '--lights: the far field is one light' --mode point --lights 4
+  misused '--tolerance -1: must be a positive number' --tolerance -1
+  misused '--distance nan: must be a positive number' --distance nan
+}
