@@ -31,8 +31,8 @@ setup() {
 }
 
 @test "a tolerance that nothing meets: which comes closest" {
-  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode auto --tolerance 1e-9 --distance 0.5
-  refused 1 "even.tif: no light is within 1e-09 at 0.5 aperture widths; closest is the " "ask for --tolerance 0."
+  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode sheet --tolerance 1e-9 --distance 0.5
+  refused 1 "even.tif: no light is within 1e-09 at 0.5 aperture widths; closest is the sheet of 2x2 lights" "ask for --tolerance 0."
   [ ! -e a.inc ]
   run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode point --tolerance 1e-9 --distance 1
   refused 1 "closest is the point: "
