@@ -184,7 +184,7 @@ static double budget(const struct cut_view *sees, double tolerance) {
     strips[axis] = 1 + cells * share + share * along->near_count;
     widest = fmax(widest, fmin(near, far));
   }
-  const double error = rule_pi_error(widest, fmin(strips[0], strips[1]), 0);
+  const double error = rule_pi_error(widest, 0);
   const double cost = light_cost * strips[0] * strips[1] + strip_cost * (strips[0] + strips[1]);
   return error <= tolerance ? cost : gauss * cost;
 }

@@ -140,11 +140,10 @@ static enum slab_result take_sums(struct gather *gather, double gain, struct gat
 
 static double pi_error(const struct strips strips[2], double shininess) {
   double widest = 0;
-  int fewest = strips[0].count < strips[1].count ? strips[0].count : strips[1].count;
   for (int axis = 0; axis < 2; ++axis)
     for (int k = 0; k < strips[axis].count; ++k)
       widest = fmax(widest, strips[axis].strip[k].high - strips[axis].strip[k].low);
-  return rule_pi_error(widest, fewest, shininess);
+  return rule_pi_error(widest, shininess);
 }
 
 /* The method for this receiver and page, and its predicted relative error. */

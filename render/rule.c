@@ -42,10 +42,9 @@ double rule_ellipse(double low, double high, double pole) {
   return sum > 1 ? sum + sqrt(sum * sum - 1) : 1;
 }
 
-double rule_pi_error(double widest, double strips, double shininess) {
-  static const double caution = 3.5;
+double rule_pi_error(double widest, double shininess) {
   double half = widest / 2, curvature = 5.0 / 3 + shininess / 24, slope = 1 + sqrt(shininess) / 2;
-  return caution * (curvature * half * half + slope * half / 2 / sqrt(strips));
+  return curvature * half * half + 1.2 * slope * half;
 }
 
 double rule_pole(const struct strips *other) {

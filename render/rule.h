@@ -43,13 +43,13 @@ struct rule_nodes {
 
 void rule_nodes_free(struct rule_nodes *nodes);
 
-/* What RULE_PI may err by, relative: it takes the kernel from the middle of a micro light. Over a
- * strip of half width h the kernel's curvature changes the mean by at most 5/3 h^2, and its
- * slope, together with the radiance's, by about h/2 times the change of radiance over the
- * strip, of which a sum over n strips keeps the share 1/sqrt(n). A highlight is about
- * exp(-m x^2/8) for the exponent m: it adds its own curvature and slope. Times 3.5: for rough
- * samples in rows 1 sufficed, thin peaks at the aperture's edge erred 3.2 times as much. */
-double rule_pi_error(double widest, double strips, double shininess);
+/* What RULE_PI may err by, relative to the receiver's light: it takes the kernel from the middle
+ * of a micro light. Over a strip of half width h the kernel's curvature changes the mean by at
+ * most 5/3 h^2, and its slope by about h where radiance rises from nothing within the strip, as
+ * all of what is seen can at the rim of a beam (1.15 h was met; where many strips share in the
+ * light, a tenth of that). A highlight is about exp(-m x^2/8) for the exponent m: it adds its
+ * own curvature and slope. */
+double rule_pi_error(double widest, double shininess);
 
 /* Distance of the poles from the axis, given the strips along the other one. */
 double rule_pole(const struct strips *other);
