@@ -12,7 +12,7 @@ enum { NODES = 1024, ROUNDS = 4 };
 
 /* Errors of nodes that hide in the views have either sign. Their sum is taken as this many times
  * the root of the sum of their squares, or as the sum, where that is less. */
-static const double scatter = 2;
+static const double scatter = 1.6;
 
 /* Costs in nanoseconds, of which only the ratios matter: of a node, of an st sample of a node, of
  * a micro light summed by the rule pi, of a strip of them; by Gauss rules instead of pi. */
@@ -24,7 +24,7 @@ static const double worth = 0.7, hopeless = 12;
 
 /* Light of a page below this share of the most that it sends to where the receiver is may err as
  * if it were that share; and what is aimed at, since all is estimated. */
-static const double least_share = 1e-4, margin = 0.8, clipped_margin = 0.4;
+static const double least_share = 1e-4, margin = 0.7, clipped_margin = 0.4;
 
 struct cut_work {
   struct cut_view view;

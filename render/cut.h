@@ -3,7 +3,7 @@
  *
  * For a receiver at height z the ray through the point a of the aperture has the st coordinate
  * s = s0 - w (a - a0), w = 1/z - kappa, s0 that of the ray through a0. A node of the tree
- * (cut_tree.h) has radiance linear in a and b. Its product with the hat functions of uv and st
+ * (cut_tree.h) has radiance linear in a and in b. Its product with the hat functions of uv and st
  * (cut_axis.h) and the kernel, expanded to second order about the node's center, is integrated
  * exactly: single views, the leaves, err by the kernel's higher orders alone.
  *
@@ -39,8 +39,8 @@ enum slab_result cut_build(const struct light_page *page, int threads, struct cu
                            struct slab_error *error);
 void cut_free(struct cut_tree *tree); /* NULL allowed */
 
-/* Memory that the tree takes, in bytes: per st sample and node 52, with a third as many nodes as
- * views: about 1.45 times the slab's samples. */
+/* Memory that the tree takes, in bytes: per st sample and node 64, with a third as many nodes as
+ * views: about 1.78 times the slab's samples. */
 double cut_bytes(const struct cut_tree *tree);
 
 struct cut_counts {

@@ -1,6 +1,7 @@
 /* cut_build.c - builds the tree of cut_tree.h, from the views up. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cut.h"
 #include "cut_tree.h"
@@ -40,22 +41,21 @@ static enum slab_result allocate(struct cut_tree *tree, struct slab_error *error
 
 /* ---- Images ---- */
 
-/* One child's share in a node's M, U and V: of its M, and of its own U and V. */
+/* One child's share in a node: of its radiance in the node's mean and slope, along each axis, and
+ * of its own slope in the node's. */
 struct share {
-  float mean, slope[2], own[2];
+  float mean[2], slope[2], own[2];
 };
 
 static struct share find_share(const struct cut_interval *const node[2],
                                const struct cut_interval *const child[2]) {
-  struct share share = {0};
-  double mean[2];
-  for (int axis = 0; axis < 2; ++axis) mean[axis] = child[axis]->moment[0] / node[axis]->moment[0];
-  share.mean = (float)(mean[0] * mean[1]);
+  struct share share;
   for (int axis = 0; axis < 2; ++axis) {
     const struct cut_interval *n = node[axis], *c = child[axis];
-    double other = mean[1 - axis] * n->half / n->moment[2];
-    share.slope[axis] = (float)(other * (c->center - n->center) * c->moment[0]);
-    share.own[axis] = (float)(other * c->moment[2] / c->half);
+    double per = n->half / n->moment[2];
+    share.mean[axis] = (float)(c->moment[0] / n->moment[0]);
+    share.slope[axis] = (float)(per * (c->center - n->center) * c->moment[0]);
+    share.own[axis] = (float)(per * c->moment[2] / c->half);
   }
   return share;
 }
@@ -64,9 +64,13 @@ static struct share find_share(const struct cut_interval *const node[2],
 static void add_node(const float *child, size_t texels, const struct share *share, float *out) {
   for (size_t k = 0; k < texels; ++k, child += CUT_FLOATS, out += CUT_FLOATS)
     for (int c = 0; c < 3; ++c) {
-      out[c] += share->mean * child[c];
-      out[3 + c] += share->slope[0] * child[c] + share->own[0] * child[3 + c];
-      out[6 + c] += share->slope[1] * child[c] + share->own[1] * child[6 + c];
+      float mean[2] = {share->mean[0] * child[c], share->mean[0] * child[3 + c]};
+      float slope[2] = {share->slope[0] * child[c] + share->own[0] * child[6 + c],
+                        share->slope[0] * child[3 + c] + share->own[0] * child[9 + c]};
+      out[c] += share->mean[1] * mean[0];
+      out[3 + c] += share->slope[1] * mean[0] + share->own[1] * mean[1];
+      out[6 + c] += share->mean[1] * slope[0];
+      out[9 + c] += share->slope[1] * slope[0] + share->own[1] * slope[1];
     }
 }
 
@@ -79,9 +83,11 @@ static void add_view(const struct light_page *page, const int at[2], const struc
         page->slab.rgb + view_offset(&view, 1, at[1], l) + view_offset(&view, 0, at[0], 0);
     for (int k = 0; k < page->axes[0].far_count; ++k, from += 3, out += CUT_FLOATS)
       for (int c = 0; c < 3; ++c) {
-        out[c] += share->mean * from[c];
-        out[3 + c] += share->slope[0] * from[c];
-        out[6 + c] += share->slope[1] * from[c];
+        float mean = share->mean[0] * from[c], slope = share->slope[0] * from[c];
+        out[c] += share->mean[1] * mean;
+        out[3 + c] += share->slope[1] * mean;
+        out[6 + c] += share->mean[1] * slope;
+        out[9 + c] += share->slope[1] * slope;
       }
   }
 }
@@ -128,8 +134,12 @@ static void set_scale(struct cut_tree *tree) {
   float most = 0;
   size_t floats = 3 * slab_sample_count(&tree->page->slab);
   for (size_t k = 0; k < floats; ++k) most = fmaxf(most, fabsf(tree->page->slab.rgb[k]));
-  for (int code = 1; code < CUT_CODES; ++code)
-    tree->error[code] = (float)(most * exp2((code - CUT_CODES + 1.0) / cut_code_steps));
+  for (int code = 1; code < CUT_CODES; ++code) {
+    uint32_t bits = (127u << 23) - ((uint32_t)(CUT_CODES - 1 - code) << CUT_CODE_SHIFT);
+    float share;
+    memcpy(&share, &bits, sizeof share);
+    tree->error[code] = most * share;
+  }
   tree->brightest = most * tree->axes[0].level[0]->moment[0] * tree->axes[1].level[0]->moment[0];
   if (tree->levels < 2) return;
   const float *image = tree->level[0].images;
@@ -149,10 +159,13 @@ static void make_means(struct cut_tree *tree, int level, const int at[2]) {
     for (int k = 0; k < width; ++k, ++out) {
       size_t across = k + 1 < width, up = l + 1 < height ? (size_t)width : 0;
       const float *corner = image + CUT_FLOATS * ((size_t)l * (size_t)width + (size_t)k);
-      out->mean =
-          (largest_of(corner) + largest_of(corner + CUT_FLOATS * across) +
-           largest_of(corner + CUT_FLOATS * up) + largest_of(corner + CUT_FLOATS * (up + across))) /
-          4;
+      float sum = largest_of(corner) + largest_of(corner + CUT_FLOATS * across) +
+                  largest_of(corner + CUT_FLOATS * up) +
+                  largest_of(corner + CUT_FLOATS * (up + across));
+      uint32_t bits;
+      sum /= 4;
+      memcpy(&bits, &sum, sizeof bits);
+      out->mean = (uint16_t)(bits >> 16);
     }
 }
 

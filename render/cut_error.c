@@ -16,12 +16,16 @@ struct weights {
   float weight[2][CUT_TAPS];
 };
 
+/* So few views' micro lights cost less than a node that is wide. */
+enum { FEW_VIEWS = 4, FEW_SPREADS = 4 };
+
 struct cut_error_scratch {
   simd_float4 *off;      /* node - views, for each sample */
   simd_float4 *along[2]; /* sums along s */
   struct weights *of[2]; /* along s and t */
   uint8_t *code;
   uint8_t *line; /* of codes */
+  struct cut_lines *lines;
 };
 
 struct cut_error_scratch *cut_error_scratch(const struct cut_tree *tree) {
@@ -31,7 +35,8 @@ struct cut_error_scratch *cut_error_scratch(const struct cut_tree *tree) {
   made->off = aligned_alloc(sizeof(simd_float4), texels * sizeof(simd_float4));
   made->code = calloc(texels, 1);
   made->line = malloc(texels);
-  bool whole = made->off && made->code && made->line;
+  made->lines = cut_lines_make(tree);
+  bool whole = made->off && made->code && made->line && made->lines;
   for (int k = 0; k < 2; ++k) {
     made->along[k] = aligned_alloc(sizeof(simd_float4), texels * sizeof(simd_float4));
     made->of[k] = calloc((size_t)tree->page->axes[k].far_count, sizeof *made->of[k]);
@@ -47,6 +52,7 @@ void cut_error_scratch_free(struct cut_error_scratch *scratch) {
   free(scratch->off);
   free(scratch->code);
   free(scratch->line);
+  cut_lines_free(scratch->lines);
   for (int k = 0; k < 2; ++k) {
     free(scratch->along[k]);
     free(scratch->of[k]);
@@ -59,11 +65,24 @@ static void find_weights(const struct light_axis *axis, const struct cut_interva
                          const struct cut_interval *part, double rate, double offset,
                          struct weights *weights) {
   const double scale = 1 / node->half, unit = node->half / node->moment[0];
+  bool same = true; /* as in the middle */
   struct cut_sight sight = {
       .rate = rate, .scale = scale, .limits = {-INFINITY, INFINITY}, .clipped = true};
-  for (int k = 0; k < axis->far_count; ++k) {
+  const double reach = fabs(rate) * part->half,
+               shift = offset + rate * (part->center - node->center);
+  const int middle = axis->far_count / 2;
+  for (int n = 0; n < axis->far_count; ++n) {
+    const int k = n == 0 ? middle : n <= middle ? n - 1 : n;
     struct cut_taps taps;
-    sight.place = k + offset + rate * (part->center - node->center);
+    sight.place = k + shift;
+    bool inside = sight.place - reach >= 0 && sight.place + reach < axis->far_count - 1;
+    if (n > 0 && inside && same) {
+      weights[k] = weights[middle];
+      weights[k].first += k - middle;
+      continue;
+    }
+    sight.clipped = !inside;
+    same = same && (n > 0 || inside);
     if (!cut_taps_find(part, &sight, axis->far_count, &taps)) taps.count = 0;
     weights[k].first = taps.first;
     weights[k].count = taps.count;
@@ -93,8 +112,9 @@ static void add_node_row(const float *row, const struct weights *weights, int co
     for (int tap = 0; tap < weights[k].count; ++tap, from += CUT_FLOATS) {
       float weight = weights[k].weight[0][tap];
       sum += SIMD_LOAD(simd_floats4, from) * weight +
-             SIMD_LOAD(simd_floats4, from + 3) * weights[k].weight[1][tap];
-      other += SIMD_LOAD(simd_floats4, from + 6) * weight;
+             SIMD_LOAD(simd_floats4, from + 6) * weights[k].weight[1][tap];
+      other += SIMD_LOAD(simd_floats4, from + 3) * weight +
+               SIMD_LOAD(simd_floats4, from + 9) * weights[k].weight[1][tap];
     }
     along[k] = sum;
     slope[k] = other;
@@ -147,12 +167,18 @@ static void find_off(const struct cut_tree *tree, int level, const int at[2], do
   }
 }
 
+/* Codes are the exponent and 3 bits of the mantissa, rounded up; cut_scale_make. */
 static uint8_t encode(const struct cut_tree *tree, simd_float4 off) {
-  float most = fmaxf(fmaxf(fabsf(off[0]), fabsf(off[1])), fabsf(off[2]));
+  simd_float4 size = simd_magnitude(off);
+  float most = size[0] > size[1] ? size[0] : size[1];
+  most = most > size[2] ? most : size[2];
   if (!(most > tree->error[1])) return most > 0;
-  int code =
-      CUT_CODES - 1 + (int)ceilf(log2f(most / tree->error[CUT_CODES - 1]) * (float)cut_code_steps);
-  return (uint8_t)(code < 1 ? 1 : code < CUT_CODES ? code : CUT_CODES - 1);
+  float share = most / tree->error[CUT_CODES - 1];
+  if (!(share < 1)) return CUT_CODES - 1;
+  uint32_t bits, top = 127u << 23;
+  memcpy(&bits, &share, sizeof bits);
+  uint32_t down = (top - bits) >> CUT_CODE_SHIFT;
+  return (uint8_t)(down < CUT_CODES - 2 ? CUT_CODES - 1 - down : 1);
 }
 
 /* The largest code of the corners of each cell. */
@@ -172,11 +198,13 @@ static void encode_all(const struct cut_tree *tree, struct cut_error_scratch *sc
 }
 
 /* Stores codes; `out` is that of the first cell. */
-static void store(const struct cut_tree *tree, struct cut_error_scratch *scratch, uint8_t *out) {
+static void store(const struct cut_tree *tree, struct cut_error_scratch *scratch, bool across,
+                  bool up, uint8_t *out) {
   const int width = tree->page->axes[0].far_count, height = tree->page->axes[1].far_count;
   for (int l = 0; l < height; ++l)
     for (int k = 0; k < width; ++k, out += sizeof(struct cut_estimate))
-      *out = largest(scratch->code + l * width + k, k + 1 < width, l + 1 < height ? width : 0);
+      *out = largest(scratch->code + l * width + k, across && k + 1 < width,
+                     up && l + 1 < height ? width : 0);
   memset(scratch->code, 0, cut_texels(tree));
 }
 
@@ -223,34 +251,67 @@ static void find_part(const struct cut_tree *tree, int level, const int at[2],
             tree->page->slab.rgb + view_offset(&view, 1, j, l) + view_offset(&view, 0, i, 0);
         for (int k = 0; k < width; ++k, from += CUT_FLOATS, rgb += 3, ++off) {
           simd_float4 d = SIMD_LOAD(simd_floats4, rgb) - SIMD_LOAD(simd_floats4, from) -
-                          SIMD_LOAD(simd_floats4, from + 3) * x -
-                          SIMD_LOAD(simd_floats4, from + 6) * y;
-          simd_float4 minus = -d;
-          for (int c = 0; c < 3; ++c) (*off)[c] += (d[c] > minus[c] ? d[c] : minus[c]) * share;
+                          SIMD_LOAD(simd_floats4, from + 6) * x -
+                          SIMD_LOAD(simd_floats4, from + 3) * y -
+                          SIMD_LOAD(simd_floats4, from + 9) * (x * y);
+          *off += simd_magnitude(d) * share;
         }
       }
     }
 }
 
-void cut_error_measure(struct cut_tree *tree, int level, const int at[2],
-                       struct cut_error_scratch *scratch) {
+/* Errors for views that are more than one st sample wide. */
+static void measure_wide(struct cut_tree *tree, int level, const int at[2], int spreads,
+                         struct cut_error_scratch *scratch, struct cut_estimate *out) {
   const double widest = fmax(tree->axes[0].widest[level], tree->axes[1].widest[level]);
-  struct cut_estimate *out =
-      tree->level[level].estimates + cut_texels(tree) * cut_node_number(tree, level, at);
   for (int side = 0; side < (tree->page->axes[0].kappa > 0 ? 2 : 1); ++side)
     for (int spread = 0; spread < CUT_SPREADS; ++spread) {
+      if (spread >= spreads) {
+        for (size_t k = 0; k < cut_texels(tree); ++k) out[k].error[side][spread] = CUT_CODES - 1;
+        continue;
+      }
       const double width = cut_narrowest * exp2(spread), aside = fmin(width / 4, 0.5);
       for (int place = 0; place < (width < 2 ? 3 : 2); ++place) {
         find_off(tree, level, at, (side ? -width : width) / widest,
                  place == 2 ? -aside : place * aside, scratch);
         encode_all(tree, scratch);
       }
-      store(tree, scratch, &out->error[side][spread]);
+      store(tree, scratch, true, true, &out->error[side][spread]);
     }
+}
+
+/* Errors for views that are no wider. */
+static void measure_narrow(struct cut_tree *tree, int level, const int at[2],
+                           struct cut_error_scratch *scratch, struct cut_estimate *out) {
+  simd_float4 *second = scratch->along[0];
+  const size_t texels = cut_texels(tree);
+  memset(second, 0, texels * sizeof *second);
+  for (int axis = 0; axis < 2; ++axis) {
+    cut_lines_measure(tree, level, at, axis, scratch->lines, scratch->off, second);
+    encode_all(tree, scratch);
+    store(tree, scratch, axis == 1, axis == 0, &out->line[axis]);
+  }
+  memcpy(scratch->off, second, texels * sizeof *second);
+  encode_all(tree, scratch);
+  store(tree, scratch, true, true, &out->second);
+}
+
+void cut_error_measure(struct cut_tree *tree, int level, const int at[2],
+                       struct cut_error_scratch *scratch) {
+  const size_t texels = cut_texels(tree);
+  struct cut_estimate *out =
+      tree->level[level].estimates + texels * cut_node_number(tree, level, at);
+  int views = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const struct cut_interval *interval = &tree->axes[axis].level[level][at[axis]];
+    views *= interval->last - interval->first + 1;
+  }
+  measure_wide(tree, level, at, views > FEW_VIEWS ? CUT_SPREADS : FEW_SPREADS, scratch, out);
+  measure_narrow(tree, level, at, scratch, out);
   find_part(tree, level, at, scratch);
   encode_all(tree, scratch);
-  store(tree, scratch, &out->part);
+  store(tree, scratch, true, true, &out->part);
   encode_all(tree, scratch);
   spread_codes(tree, scratch, (int)cut_widest / 2);
-  store(tree, scratch, &out->edge);
+  store(tree, scratch, true, true, &out->edge);
 }

@@ -11,10 +11,12 @@
  * order, in units of the node's reach over its distance: odd orders nearly cancel over a node,
  * unless the window's edge cuts it. Its mixed second order, in units of the product of the
  * reaches: it cancels for radiance that is the same all over the node. And what the kernel's
- * second order makes of views that differ from the node. Measured to be enough on smooth, rough
- * and cut lamps. */
+ * second order makes of views that differ from the node: of any part of it, where it is seen wide;
+ * in a narrow view of their second moments, with the kernel's slope times the width too. Measured
+ * to be enough on smooth, rough and cut lamps. */
 static const double third_order = 0.5, cut_third_order = 8, fourth_order = 0.3;
 static const double mixed_order = 0.16, cut_mixed_order = 0.6, part_order = 1;
+static const double second_order = 2, first_order = 2;
 
 void cut_view_free(struct cut_view *view) {
   free(view->spots);
@@ -47,6 +49,13 @@ bool cut_view_begin(const struct cut_tree *tree, const struct view *view, struct
   return true;
 }
 
+/* At most one st sample is within a narrow view. */
+static void set_line(struct cut_spot *spot, double reach, int far_count) {
+  spot->line = spot->cell + (spot->place - spot->cell > 0.5 && spot->cell < far_count - 1);
+  double off = fabs(spot->place - spot->line);
+  spot->bend = off < reach ? reach - off * off / reach : 0;
+}
+
 static void set_spots(const struct cut_view *view, int level, int axis, struct cut_spot *spot) {
   const struct light_axis *along = &view->view->page->axes[axis];
   const struct cut_axis *tree = &view->tree->axes[axis];
@@ -65,6 +74,7 @@ static void set_spots(const struct cut_view *view, int level, int axis, struct c
     spot->cell = !(spot->place > 0)                   ? 0
                  : spot->place < along->far_count - 1 ? (int)spot->place
                                                       : along->far_count - 1;
+    set_line(spot, reach, along->far_count);
     spot->taps = NULL;
   }
 }
@@ -87,7 +97,8 @@ void cut_view_prepare(struct cut_view *view, int number) {
     spots += axes[axis].count[number];
   }
   level->wide = !(spread <= cut_widest);
-  level->shrink = spread < width ? spread / width : 1;
+  level->narrow = spread <= 1;
+  level->across = spread / 2;
   level->spread = 0;
   for (; spread > 2 * width && level->spread < CUT_SPREADS - 2; width *= 2) ++level->spread;
 }
@@ -97,7 +108,22 @@ void cut_view_prepare(struct cut_view *view, int number) {
 static double spread_error(const struct cut_view *view, const struct cut_view_level *level,
                            const struct cut_estimate *estimate) {
   const uint8_t *code = estimate->error[view->w < 0] + level->spread;
-  return (double)view->tree->error[code[0] > code[1] ? code[0] : code[1]] * level->shrink;
+  return (double)view->tree->error[code[0] > code[1] ? code[0] : code[1]];
+}
+
+static double line_error(const struct cut_tree *tree, int level, const int at[2],
+                         const struct cut_spot *const spot[2]) {
+  const struct cut_estimate *estimates =
+      tree->level[level].estimates + cut_texels(tree) * cut_node_number(tree, level, at);
+  const int width = tree->page->axes[0].far_count;
+  double error = 0;
+  if (spot[0]->bend > 0)
+    error += spot[0]->bend *
+             (double)tree->error[estimates[spot[1]->cell * width + spot[0]->line].line[0]];
+  if (spot[1]->bend > 0)
+    error += spot[1]->bend *
+             (double)tree->error[estimates[spot[1]->line * width + spot[0]->cell].line[1]];
+  return error;
 }
 
 static double largest_of(const float *rgb) {
@@ -139,11 +165,17 @@ bool cut_view_estimate(const struct cut_view *view, int number, const int at[2],
         tree->level[number].estimates + cut_texels(tree) * cut_node_number(tree, number, at) +
         (size_t)spot[1]->cell * (size_t)tree->page->axes[0].far_count + (size_t)spot[0]->cell;
     double edge = whole ? 0 : (double)tree->error[estimate->edge];
-    part = (double)tree->error[estimate->part];
-    node->light = value * (double)estimate->mean;
-    node->spread = value * larger(spread_error(view, level, estimate), edge);
+    if (level->narrow)
+      part = (double)tree->error[estimate->second] *
+             (second_order * flat + first_order * narrow * level->across) * tilt;
+    else
+      part = (double)tree->error[estimate->part] * part_order * flat * tilt;
+    node->light = value * cut_mean(estimate);
+    double spread =
+        level->narrow ? line_error(tree, number, at, spot) : spread_error(view, level, estimate);
+    node->spread = value * larger(spread, edge);
   }
-  node->bent = fabs(node->light) * node->bend + value * part_order * part * flat * tilt;
+  node->bent = fabs(node->light) * node->bend + value * part;
   return true;
 }
 
@@ -215,8 +247,9 @@ static simd_float4 node_light(const float *image, size_t row, const struct facto
     simd_float4 mean = {0}, slope = {0};
     for (int k = 0; k < u->count; ++k, texel += CUT_FLOATS) {
       mean += SIMD_LOAD(simd_floats4, texel) * u->mean[k] +
-              SIMD_LOAD(simd_floats4, texel + 3) * u->slope[k];
-      slope += SIMD_LOAD(simd_floats4, texel + 6) * u->mean[k];
+              SIMD_LOAD(simd_floats4, texel + 6) * u->slope[k];
+      slope += SIMD_LOAD(simd_floats4, texel + 3) * u->mean[k] +
+               SIMD_LOAD(simd_floats4, texel + 9) * u->slope[k];
     }
     sum += mean * v->mean[l] + slope * v->slope[l];
   }

@@ -11,6 +11,8 @@ struct cut_spot {
   double slope, place; /* place: number of the st sample */
   double size;         /* of the interval, in slopes */
   int cell;
+  int line;              /* the nearest st sample */
+  double bend;           /* what it makes of the error at a line; 0: not in the view */
   bool seen, whole;      /* is any of it, is all of it within the st window */
   struct cut_taps *taps; /* NULL: not made yet */
 };
@@ -18,9 +20,10 @@ struct cut_spot {
 /* What the nodes of a level have in common. */
 struct cut_view_level {
   struct cut_spot *spots[2]; /* NULL: not made yet */
+  bool narrow;               /* errors are those at lines */
+  double across;             /* half the width, in st samples */
   bool wide;                 /* wider than errors are known for */
   int spread;                /* their errors are those of this width or the next, */
-  double shrink;             /* times this */
   double reach[2];           /* largest distance from a node's center, in slopes */
   double samples;            /* of st that a node is summed over */
 };

@@ -17,6 +17,17 @@ typedef double simd_doubles4 __attribute__((vector_size(32), aligned(8), may_ali
 
 #define SIMD_INLINE static inline __attribute__((always_inline))
 
+typedef int simd_int4 __attribute__((vector_size(16)));
+
+SIMD_INLINE simd_float4 simd_magnitude(simd_float4 x) {
+  return (simd_float4)((simd_int4)x & 0x7fffffff);
+}
+
+SIMD_INLINE simd_float4 simd_larger(simd_float4 a, simd_float4 b) {
+  simd_int4 more = a > b;
+  return (simd_float4)(((simd_int4)a & more) | ((simd_int4)b & ~more));
+}
+
 /* Defines `void NAME parameters`, which does what NAME_body does. (gcc's and clang's
  * target_clones would say it shorter, but clang 14's are not found by other files.) */
 #ifdef __x86_64__

@@ -319,7 +319,7 @@ static void test_memory(void **state) {
   (void)state;
   struct lit lit;
   make(&lit, CONSTANT, small, INFINITY, 2);
-  double stated = 52.0 * (1 + 4 + 16) * 32 * 32;
+  double stated = 64.0 * (1 + 4 + 16) * 32 * 32;
   assert_true(fabs(cut_bytes(lit.aids.trees[0]) / stated - 1) < 0.05);
   release(&lit);
 }
