@@ -32,8 +32,8 @@
 struct cut_tree; /* keeps a pointer to the page */
 
 /* Builds the tree of a page: the same bits whatever the threads. Nearly all of the time goes into
- * measuring errors: 0.5 s of CPU for 16 x 16 x 64 x 64 samples, 3 s for 32 x 32 x 64 x 64, what
- * 100,000 receivers' micro lights take. Loading such slabs takes 0.07 s and 0.3 s, so a file
+ * measuring errors: 0.6 s of CPU for 16 x 16 x 64 x 64 samples, 2.5 s for 32 x 32 x 64 x 64, what
+ * 100,000 receivers' micro lights take. Loading such slabs takes 0.06 s and 0.2 s, so a file
  * beside the slab would pay for small pictures; there is none yet. */
 enum slab_result cut_build(const struct light_page *page, int threads, struct cut_tree **made,
                            struct slab_error *error);
