@@ -17,10 +17,11 @@ extern "C" {
 
 struct slab_picture {
   int width, height;
-  float *rgb;   /* owned */
-  float *error; /* how far off each value may be: channels error.R, error.G and error.B in a
-                   part of their own, `error`, so that readers of pictures need not know of
-                   it; owned, NULL for none. Written with float only, not read. */
+  float *rgb; /* owned */
+  float
+      *error; /* how far off each value may be, INFINITY where that is not known: channels error.R,
+                 error.G and error.B in a part of their own, `error`, so that readers of pictures
+                 need not know of it; owned, NULL for none. Written with float only, not read. */
 };
 
 void slab_picture_free(struct slab_picture *picture);

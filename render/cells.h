@@ -23,8 +23,8 @@ struct cells {
   struct view view;
   enum cells_kind kind;
   struct rule_nodes nodes[2];  /* along u and v; owned */
-  struct taps_column *columns; /* CELLS_SINGLE, CELLS_VIEWS: one a strip along u; owned */
-  int (*offset)[2];            /* CELLS_GAUSS: owned */
+  struct taps_column *columns; /* all but CELLS_GAUSS: one a strip along u; owned */
+  int (*offset)[2];            /* pixels of the strips along u; owned */
   int column_room;
   double unit[2];   /* single precision: weights are relative to these lengths
                       and the page's unit */

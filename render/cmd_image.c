@@ -153,7 +153,8 @@ static void tell_effects(const struct arguments *arguments, const struct scene *
                scene->material_count);
   stats_effect(stats, "textures", textured > 0, "%d of %d materials have one", textured,
                scene->material_count);
-  stats_effect(stats, "interreflection", false, "between surfaces of the scene: not implemented");
+  stats_effect(stats, "interreflection", false,
+               "light from lamps only, not from surface to surface");
 }
 
 static void show_progress(void *context, double done) {

@@ -45,12 +45,7 @@ enum {
   OPTION_NO_SHADOWS
 };
 
-enum {
-  MOST_THREADS = 1024,
-  MOST_LEVEL = 30,
-  SHADOW_GRID = 16,
-  SHADOW_EDGE = 256
-}; /* as options.c has them */
+enum { MOST_THREADS = 1024, MOST_LEVEL = 30 }; /* as options.c has them */
 /* Unless --size says otherwise the picture is no wider and no higher. */
 enum { WIDTH = 160, HEIGHT = 120 };
 
@@ -186,8 +181,8 @@ static struct tradeoff_settings settings_of(const struct arguments *arguments,
       .gather = {.lights = world->lights,
                  .light_count = arguments->options.light_count,
                  .occlusion = arguments->no_shadows ? NULL : world->occlusion,
-                 .shadow_grid = SHADOW_GRID,
-                 .shadow_edge = SHADOW_EDGE},
+                 .shadow_grid = OPTIONS_SHADOW_GRID,
+                 .shadow_edge = OPTIONS_SHADOW_EDGE},
       .closed = arguments->no_shadows && !any_gloss(&world->scene),
       .finest = arguments->finest,
       .levels = arguments->levels,

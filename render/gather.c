@@ -146,17 +146,22 @@ static double pi_error(const struct strips strips[2], double shininess) {
   return rule_pi_error(widest, shininess);
 }
 
-/* The method for this receiver and page, and its predicted relative error. */
+/* The method for this receiver and page, and its predicted relative error: INFINITY where none
+ * is known, as with random samples, whole levels and sums over views. */
 static enum gather_method choose(const struct gather *gather, const struct look *look,
-                                 const struct strips strips[2], double *error) {
+                                 const struct view *view, double *error) {
+  const struct strips *strips = gather->whole;
   enum gather_method method = gather->settings->method;
+  bool sampled = method == GATHER_PAPER || method == GATHER_PAPER_LEVELS ||
+                 method == GATHER_VIEWS || method == GATHER_MIDPOINT;
   *error = gather->settings->tolerance;
   bool cheapest = method == GATHER_AUTO || method == GATHER_LEVELS || method == GATHER_CUT;
-  if (cheapest || method == GATHER_PI || method == GATHER_MIDPOINT) {
+  if (cheapest || method == GATHER_PI) {
     double single = pi_error(strips, look->receiver->shininess);
     if (cheapest) method = single <= *error ? GATHER_PI : GATHER_REFERENCE;
     if (method != GATHER_REFERENCE) *error = single;
   }
+  if (sampled || view->page != look->page) *error = INFINITY;
   return method;
 }
 
@@ -170,8 +175,9 @@ static enum slab_result sum(struct gather *gather, const struct look *look, cons
   case GATHER_PAPER:
   case GATHER_PAPER_LEVELS:
     paper_sum(view, look->page, strips,
-              gather->settings->seed ^ look->receiver->index * 0xd1342543de82ef95u, irradiance,
-              gloss, &gather->cell_counts);
+              gather->settings->seed ^ (look->receiver->index * 0xd1342543de82ef95u +
+                                        (uint64_t)look->page_number * 0x9fb21c651e98df25u),
+              irradiance, gloss, &gather->cell_counts);
     add(&gathered[look->index], irradiance, gloss, gain);
     return SLAB_OK;
   case GATHER_CLOSED:
@@ -328,7 +334,7 @@ static enum slab_result take_look(struct gather *gather, const struct look *look
     if (all_visible(gather) && take_cut(gather, look, &view, gathered)) return SLAB_OK;
   }
   double predicted;
-  enum gather_method method = choose(gather, look, gather->whole, &predicted);
+  enum gather_method method = choose(gather, look, &view, &predicted);
   note_error(gather, look, predicted, gathered);
   if (!look->shadows) return sum(gather, look, &view, gather->whole, method, gathered, error);
   for (int k = 0; k < gather->visible.count && result == SLAB_OK; ++k) {

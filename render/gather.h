@@ -42,7 +42,7 @@ struct gathered {
   double irradiance[3];
   double gloss[3]; /* integral of L (N.H)^shininess over the solid angle above the tangent
                       plane; 0 for matte receivers */
-  double error;    /* predicted, relative: the largest of its pages' */
+  double error;    /* predicted, relative: the largest of its pages'; INFINITY: not known */
 };
 
 struct gather_counts {

@@ -101,8 +101,8 @@ static void set_defaults(struct options *options) {
 static void set_shadows(struct options *options) {
   bool by_tolerance = options->method == GATHER_AUTO || options->method == GATHER_CUT;
   bool coarse = by_tolerance && options->tolerance >= 0.003;
-  if (options->shadow_grid < 1) options->shadow_grid = coarse ? 8 : 16;
-  if (options->shadow_edge < 1) options->shadow_edge = coarse ? 64 : 256;
+  if (options->shadow_grid < 1) options->shadow_grid = coarse ? 8 : OPTIONS_SHADOW_GRID;
+  if (options->shadow_edge < 1) options->shadow_edge = coarse ? 64 : OPTIONS_SHADOW_EDGE;
   if (options->shadow_edge < options->shadow_grid) options->shadow_edge = options->shadow_grid;
 }
 

@@ -23,6 +23,9 @@ struct options {
   int shadow_grid, shadow_edge; /* 16, 256; coarser where the tolerance allows */
 };
 
+/* Shadows, unless the tolerance allows less. */
+enum { OPTIONS_SHADOW_GRID = 16, OPTIONS_SHADOW_EDGE = 256 };
+
 /* For the `children` of a command's argp. The command sets state->child_inputs to its struct
  * options at ARGP_KEY_INIT; defaults are filled in here. Mistakes end in argp_error; at least
  * one light is asked for. */

@@ -65,6 +65,6 @@ void shade_radiance(const struct shade_hit *hit, const struct gathered *gathered
     double lit =
         (hit->diffuse[c] * gathered->irradiance[c] + hit->specular[c] * gathered->gloss[c]) / M_PI;
     rgb[c] += lit;
-    error[c] = fabs(lit) * gathered->error;
+    if (lit != 0) error[c] = fabs(lit) * gathered->error;
   }
 }

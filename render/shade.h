@@ -41,7 +41,7 @@ void shade_ray(const struct shade *shade, const double origin[3], const double d
                uint64_t index, struct shade_hit *hit);
 
 /* The radiance, with what the receiver gathered (NULL if it is not lit), and how far off it
- * is predicted to be. */
+ * is predicted to be, INFINITY where that is not known. */
 void shade_radiance(const struct shade_hit *hit, const struct gathered *gathered, double rgb[3],
                     double error[3]);
 

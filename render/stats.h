@@ -7,7 +7,8 @@
  *   effects: {name: {simulated: true or false, reason: text}, ...}
  *   slab_errors: [{light, page, apertures, about}, ...]: relative RMS errors that the slabs
  *   themselves have at some distances (slab_floor.h); digits below them mean nothing
- *   error_estimate: largest predicted relative error of a receiver's matte light */
+ *   error_estimate: largest predicted relative error of a receiver's matte light; null where
+ *   the method predicts none */
 #ifndef STATS_H
 #define STATS_H
 

@@ -16,7 +16,8 @@ static const char *const explained[] = {
     "darker",
     "sum_rms, sum_max: the same against a reference with the usual shadows: what the sum alone "
     "does",
-    "predicted: the largest error that the method itself expects of its sum",
+    "predicted: the largest error that the method itself expects of its sum; - where it expects "
+    "none",
     "microlights, nodes, shadow_rays: visited, evaluated, cast",
     "aids_bytes, aids_cpu: memory that the method adds to the slabs', and seconds to make it, once",
     "alike on all machines: rms, max, sum_rms, sum_max, predicted, microlights, nodes, "
@@ -97,9 +98,13 @@ static void print_rung(FILE *file, const struct tradeoff_rung *rung,
     fputs("-\t-\t", file);
   else
     fprintf(file, "%.4g\t%.4g\t", rung->sum.rms, rung->sum.most);
-  fprintf(file, "%.4g\t%llu\t%llu\t%llu\t%zu\t%.4g\n", counts->error,
-          (unsigned long long)counts->microlights, (unsigned long long)counts->nodes,
-          (unsigned long long)counts->shadow_rays, aids->bytes, aids->cpu);
+  if (isfinite(counts->error))
+    fprintf(file, "%.4g\t", counts->error);
+  else
+    fputs("-\t", file);
+  fprintf(file, "%llu\t%llu\t%llu\t%zu\t%.4g\n", (unsigned long long)counts->microlights,
+          (unsigned long long)counts->nodes, (unsigned long long)counts->shadow_rays, aids->bytes,
+          aids->cpu);
 }
 
 void tradeoff_print(FILE *file, const struct tradeoff_settings *settings,
