@@ -12,6 +12,7 @@
 #include "effects.h"
 #include "files.h"
 #include "housing.h"
+#include "lamp_depend.h"
 #include "slab_cli.h"
 #include "slab_json.h"
 
@@ -241,6 +242,9 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
   if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
   if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
   if (!result) result = probe_lamp(&work, &state, error);
+  if (!result && options->depend)
+    result = lamp_depend_check(&state.lamp.reads, state.source.path, options->output,
+                               options->depend, error);
   if (!result) result = choose_form(options, &state.lamp, &work.look.form, error);
   if (!result)
     result = bake_tiles_init(&state.tiles, state.lamp.slabs, state.lamp.slab_count,
@@ -257,6 +261,10 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
   }
   /* A shard leaves the slab to the run without --shard. */
   report->assembled = options->shards == 1;
+  /* Before the slab: with an old rule, make would take the new slab for up to date. */
+  if (!result && report->assembled && options->depend)
+    result = lamp_depend_write(&state.lamp.reads, state.source.path, options->output,
+                               options->depend, error);
   if (!result && report->assembled) result = write_slab(&work, &state, report, error);
   bake_store_close(&state.store, !result && report->assembled);
   bake_sum_free(state.sum);

@@ -29,6 +29,7 @@ struct bake_options {
   int shard, shards; /* this process bakes batches shard, shard+shards, ... */
   enum slab_precision precision;
   bool quiet;
+  const char *depend;  /* a rule for make goes there before the slab is written, or NULL */
   const char *command; /* for the provenance */
 };
 

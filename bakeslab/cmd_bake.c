@@ -28,7 +28,8 @@ enum {
   OPTION_PRECISION,
   OPTION_GAIN,
   OPTION_CAMERA,
-  OPTION_POVRAY
+  OPTION_POVRAY,
+  OPTION_DEPEND
 };
 
 static const struct argp_option options[] = {
@@ -64,6 +65,10 @@ static const struct argp_option options[] = {
      "run without --shard bakes what is missing and assembles the slab",
      4},
     {"povray", OPTION_POVRAY, "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
+    {"depend", OPTION_DEPEND, "FILE", 0,
+     "write a rule for make there: SLAB depends on every file that the script reads (as gcc's "
+     "-MD -MF FILE -MP)",
+     4},
     {0, 'L', "FOLDER", 0, "where the script finds more files; may be repeated", 4},
     {0}};
 
@@ -190,6 +195,9 @@ static error_t parse_means(int key, char *text, struct argp_state *state,
     return 0;
   case OPTION_POVRAY:
     bake->povray = text;
+    return 0;
+  case OPTION_DEPEND:
+    bake->depend = text;
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;

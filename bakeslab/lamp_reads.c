@@ -105,6 +105,10 @@ enum slab_result lamp_reads_unchanged(const struct lamp_reads *reads, struct sla
   return SLAB_OK;
 }
 
+const char *lamp_reads_path(const struct lamp_reads *reads, int n) {
+  return reads->files[n].path;
+}
+
 void lamp_reads_free(struct lamp_reads *reads) {
   for (int n = 0; n < reads->count; ++n) free(reads->files[n].path);
   free(reads->files);

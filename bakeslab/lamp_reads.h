@@ -21,6 +21,8 @@ enum slab_result lamp_reads_collect(const char *directory, const char *script, c
                                     struct lamp_reads *reads, struct slab_error *error);
 /* Refuses where a file has other content now. */
 enum slab_result lamp_reads_unchanged(const struct lamp_reads *reads, struct slab_error *error);
+/* The n-th file, absolute and without links; owned by the reads. */
+const char *lamp_reads_path(const struct lamp_reads *reads, int n);
 void lamp_reads_free(struct lamp_reads *reads);
 
 #endif

@@ -1,0 +1,118 @@
+/* lamp_depend.c - see lamp_depend.h. */
+#include "lamp_depend.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "slab_output.h"
+
+/* A name as GNU make wants it in a rule: most of what it takes for its own syntax can be
+ * quoted, an equals sign only by way of an expansion. A percent sign means something in
+ * targets only. */
+static void put_name(FILE *rule, const char *name, bool target) {
+  if (name[0] == '~') fputs("./", rule);
+  size_t backslashes = 0;
+  for (const char *c = name;; ++c) {
+    /* Those before a quoted blank or the end would quote; elsewhere they are themselves. */
+    if (!*c || *c == ' ' || *c == '#')
+      for (; backslashes; --backslashes) putc('\\', rule);
+    if (!*c) return;
+    backslashes = *c == '\\' ? backslashes + 1 : 0;
+    if (*c == '$')
+      fputs("$$", rule);
+    else if (*c == '=')
+      fputs("$(if ,,=)", rule);
+    else
+      fprintf(rule, "%s%c", strchr(target ? " #:*?[%" : " #:*?[", *c) ? "\\" : "", *c);
+  }
+}
+
+static enum slab_result check_name(const char *name, struct slab_error *error) {
+  char last = *name ? name[strlen(name) - 1] : 0;
+  if (!name[strcspn(name, ";|\t\n")] && last != '&' && last != ')') return SLAB_OK;
+  return slab_fail(error, SLAB_BAD,
+                   "--depend: make cannot carry the name \"%s\", since it holds ; or | or a "
+                   "tab, or ends with & or ); rename it",
+                   name);
+}
+
+static const char *below(const char *folder, const char *path) {
+  size_t length = strlen(folder);
+  return !strncmp(path, folder, length) && path[length] == '/' ? path + length + 1 : path;
+}
+
+static enum slab_result put_rule(FILE *rule, const struct lamp_reads *reads, const char *script,
+                                 const char *target, struct slab_error *error) {
+  char *folder = getcwd(NULL, 0);
+  enum slab_result result =
+      folder ? check_name(target, error) : slab_fail(error, SLAB_IO, "the working folder is gone");
+  put_name(rule, target, true);
+  putc(':', rule);
+  for (int n = 0; !result && n < reads->count; ++n) {
+    const char *name = below(folder, lamp_reads_path(reads, n));
+    result = check_name(name, error);
+    fputs(" \\\n  ", rule);
+    put_name(rule, name, false);
+  }
+  putc('\n', rule);
+  for (int n = 0; !result && n < reads->count; ++n) {
+    if (!strcmp(lamp_reads_path(reads, n), script)) continue;
+    putc('\n', rule);
+    put_name(rule, below(folder, lamp_reads_path(reads, n)), true);
+    fputs(":\n", rule);
+  }
+  free(folder);
+  return result;
+}
+
+static enum slab_result check_path(const struct lamp_reads *reads, const char *target,
+                                   const char *path, struct slab_error *error) {
+  char *real = realpath(path, NULL);
+  enum slab_result result = SLAB_OK;
+  if (!strcmp(path, target) && strcmp(path, "-") != 0)
+    result = slab_fail(error, SLAB_BAD, "--depend %s: is the slab; give another file", path);
+  for (int n = 0; real && !result && n < reads->count; ++n)
+    if (!strcmp(lamp_reads_path(reads, n), real))
+      result = slab_fail(error, SLAB_BAD,
+                         "--depend %s: is a file that the lamp script reads; give another", path);
+  free(real);
+  return result;
+}
+
+/* The rule under a temporary name, if the path takes one. */
+static enum slab_result prepare(const struct lamp_reads *reads, const char *script,
+                                const char *target, const char *path, struct slab_output *output,
+                                struct slab_error *error) {
+  char *text = NULL;
+  size_t size = 0;
+  enum slab_result result = check_path(reads, target, path, error);
+  FILE *rule = result ? NULL : open_memstream(&text, &size);
+  if (rule) result = put_rule(rule, reads, script, target, error);
+  bool whole = rule && fclose(rule) == 0;
+  if (!whole && !result) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (!result) result = slab_output_begin(output, path, error);
+  if (!result && slab_output_write(output, text, size, 0) != 0)
+    result = slab_fail(error, SLAB_IO, "%s: cannot be written: %m", path);
+  free(text);
+  return result;
+}
+
+enum slab_result lamp_depend_check(const struct lamp_reads *reads, const char *script,
+                                   const char *target, const char *path, struct slab_error *error) {
+  struct slab_output output = {0};
+  enum slab_result result = prepare(reads, script, target, path, &output, error);
+  slab_output_abandon(&output);
+  return result;
+}
+
+enum slab_result lamp_depend_write(const struct lamp_reads *reads, const char *script,
+                                   const char *target, const char *path, struct slab_error *error) {
+  struct slab_output output = {0};
+  enum slab_result result = prepare(reads, script, target, path, &output, error);
+  if (!result) result = slab_output_commit(&output, error);
+  slab_output_abandon(&output);
+  return result;
+}
