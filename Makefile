@@ -58,7 +58,7 @@ PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc) libc6-dev make pkg-c
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
 PACKAGES_man  := help2man scdoc
-PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_man) libcmocka-dev libgmp-dev bats
+PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_man) libcmocka-dev libgmp-dev bats libtiff-tools groff
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
 PACKAGES := $(sort $(PACKAGES_build) \
@@ -132,6 +132,7 @@ man: $(MAN_PAGES) ## write the man pages
 # ---- Installing.
 DATA_FILES := $(POV_FILES)
 LIB_FILES := $(READS)
+MAKE_FILES := bakeslab/canned.mk
 DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
 dest := $(DESTDIR)$(prefix)
 
@@ -139,10 +140,11 @@ install: all $(LIB_FILES) $(MAN_PAGES) ## install below DESTDIR and prefix
 	$(Q)for f in $(BIN); do install -D -m 755 $$f $(dest)/bin/$${f##*/} || exit 1; done
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
+	$(Q)for f in $(MAKE_FILES); do install -D -m 644 $$f $(dest)/share/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(LIB_FILES); do install -D -m 644 $$f $(dest)/lib/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done
 	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done
-	@echo 'installed bin/bakeslab, bin/renderslab, lib/canned, share/canned/include-pov, share/man and share/doc/canned below $(dest)'
+	@echo 'installed bin/bakeslab, bin/renderslab, lib/canned, share/canned, share/man and share/doc/canned below $(dest)'
 
 uninstall: ## remove what install put there
 	$(Q)rm -f $(BIN:$(B)/%=$(dest)/%) $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))

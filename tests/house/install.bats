@@ -1,6 +1,7 @@
 #!/usr/bin/env bats
 # make install, and what is installed: the programs, their data, their man pages.
 load house
+load lamp_make
 
 setup_file() {
   load house
@@ -11,6 +12,7 @@ setup_file() {
 
 @test "the programs, include files, man pages and documents are installed" {
   cmp "$ROOT/include-pov/canned.inc" "$PREFIX/share/canned/include-pov/canned.inc"
+  cmp "$ROOT/bakeslab/canned.mk" "$PREFIX/share/canned/canned.mk"
   cmp "$ROOT/include-pov/LICENSE" "$PREFIX/share/canned/include-pov/LICENSE"
   cmp "$ROOT/README.md" "$PREFIX/share/doc/canned/README.md"
   cmp "$ROOT/lamps/parabolic.pov" "$PREFIX/share/doc/canned/lamps/parabolic.pov"
@@ -61,6 +63,14 @@ setup_file() {
   "$PREFIX/bin/bakeslab" info lamp.tif
 }
 
+@test "each picture that an installed README shows is installed" {
+  for readme in "$PREFIX"/share/doc/canned/*/README.md; do
+    for picture in $(grep -oE '\]\([^)]*\.png' "$readme" | cut -c3-); do
+      [ -s "${readme%/*}/$picture" ] || { echo "$readme shows $picture"; false; }
+    done
+  done
+}
+
 @test "the reader in light-slab(5) compiles and agrees with the program" {
   cd "$BATS_TEST_TMPDIR"
   sed -n '/^#include <jansson/,/^}/p' "$ROOT/bakeslab/light-slab.5.scd" | sed 's/\\\\/\\/g' >reader.c
@@ -78,4 +88,94 @@ setup_file() {
   awk -v r="$red" -v g="$green" -v b="$blue" '
     function near(x, y) { return x - y < 1e-3 * y && y - x < 1e-3 * y }
     { exit !(r > 0 && near($1, r) && near($2, g) && near($3, b)) }' looked
+}
+
+@test "canned.mk: README's Makefile builds, at once and in parallel; a second run does nothing" {
+  lamp_make_setup
+  sed -n '/^```make$/,/^```$/p' "$ROOT/README.md" | grep -v '^```' >Makefile
+  [ "$(wc -l <Makefile)" -le 10 ]
+  sed -i "s|^include /usr/local/|include $PREFIX/|" Makefile
+  cat >room.pov <<'END'
+#version 3.7;
+#include "desk_lamp.inc"
+#include "torch.inc"
+global_settings { assumed_gamma 1 }
+object { Desk_Lamp_Canned(1, 1) }
+object { Torch_Canned(1, 1) }
+plane { -z, -9 pigment { rgb 1 } }
+camera { location -3*z look_at 0 }
+END
+  flags='CANNED_BAKE_FLAGS=--uv 2 --st 4 --rays 4'
+  lamp_make -j2 "$flags" >log 2>&1
+  [ -s room.png ]
+  # The flags of one target: the desk lamp's include has at most 8 lights an axis.
+  grep -q 'include --lights 8 .*desk_lamp.inc' log
+  [ "$(grep -c 'include --lights' log)" -eq 1 ]
+  run lamp_make "$flags"
+  [[ $output == *"Nothing to be done for 'all'"* ]]
+}
+
+@test "canned.mk: a file that a script reads remakes its lamp alone; flags are a target's own" {
+  lamp_make_setup
+  a_makefile <<<'all: desk_lamp.inc torch.inc
+torch.tif: CANNED_BAKE_FLAGS += --st 8x4'
+  # A bare `make` builds the Makefile's own first target, with and without rules of earlier bakes.
+  lamp_make
+  bakeslab info torch.tif | grep -q '2 x 2 x 8 x 4'
+  bakeslab info desk_lamp.tif | grep -q '2 x 2 x 4 x 4'
+  lamp_make | grep -q "Nothing to be done for 'all'"
+  sed -i s/0.5/0.25/ glow.inc
+  touch -d '1 hour' glow.inc
+  run lamp_make -n
+  [[ $output == *"-o 'desk_lamp.tif'"*"-o 'desk_lamp.inc'"* && $output != *torch* ]]
+  touch glow.inc
+  lamp_make
+  # A wall of half the radiance.
+  half=$(bakeslab lookup desk_lamp.tif <<<'0 0 0  0 0 1' | cut -d' ' -f1)
+  awk -v half="$half" 'BEGIN { exit !(half > 0.24 && half < 0.26) }'
+  # Without the file the lamp is made again, and fails.
+  rm glow.inc
+  run lamp_make
+  [ "$status" -eq 2 ]
+  [[ $output == *"bakeslab: desk_lamp.pov: "*glow.inc* ]]
+}
+
+@test "canned.mk: a broken lamp stops its own files only, and leaves none by halves" {
+  lamp_make_setup
+  some_lamp broken 'sphere { }'
+  a_makefile <<<'all: broken.inc torch.inc'
+  run lamp_make -k -j2
+  [ "$status" -eq 2 ]
+  [[ $output == *"bakeslab: broken.pov: POV-Ray: File 'broken.pov' line 3: "* ]]
+  [ -z "$(find . -name '*broken*' ! -name broken.pov)" ]
+  [ -s torch.inc ]
+  # Mended it is built; broken again the old one stays and is not taken for up to date.
+  sed -i 's/^sphere { }/#declare Glow = 1;/' broken.pov
+  lamp_make
+  cp broken.tif old.tif
+  echo 'sphere { }' >>broken.pov
+  for again in 1 2; do
+    run lamp_make
+    [ "$status" -eq 2 ]
+    cmp broken.tif old.tif
+  done
+}
+
+@test "canned.mk: names with blanks, quotes and signs, in any folder" {
+  lamp_make_setup
+  mkdir 'sub folder' a+-b 'my rules'
+  for lamp in 'sub folder/a [lamp]' a+-b/c "it's \$5" 'a#b' "$PWD/there"; do
+    some_lamp "$lamp" "#include \"$PWD/glow.inc\""
+  done
+  a_makefile <<'END'
+CANNED_DEPENDS = my rules
+all: sub\ folder/a\ [lamp].inc a+-b/c.inc it's\ $$5.inc a\#b.inc $(CURDIR)/there.inc
+END
+  # Where it is read is where its folder must be known.
+  sed -i '1{h;d};/^CANNED_DEPENDS/G' Makefile
+  lamp_make -j2
+  [ -s 'sub folder/a [lamp].exr' ] && [ -s "it's \$5.inc" ] && [ -s a+-b/c.inc ] && [ -s 'a#b.inc' ] && [ -s there.inc ]
+  lamp_make | grep -q "Nothing to be done for 'all'"
+  touch -d '1 hour' glow.inc
+  [ "$(lamp_make -n | grep -c ' bake ')" -eq 5 ]
 }

@@ -1,0 +1,42 @@
+# canned.mk - lamps for your own Makefile: `include` this file, and let scenes depend on
+# desk_lamp.inc or desk_lamp.tif where there is a desk_lamp.pov.
+#
+#   %.tif: %.pov    bakeslab bake: a lamp script to a light slab; again when the script or
+#                   any file that it read last time has changed
+#   %.inc: %.tif    bakeslab include: a light slab to an include file and its image
+#
+# Variables, on the command line, in a Makefile, or for one target:
+#
+#   BAKESLAB               the program
+#   CANNED_BAKE_FLAGS      desk_lamp.tif: CANNED_BAKE_FLAGS = --uv 32x32 --rays 64
+#   CANNED_INCLUDE_FLAGS   desk_lamp.inc: CANNED_INCLUDE_FLAGS = --lights 8
+#   CANNED_DEPENDS         the folder for what make is to know of files read
+#
+# Other flags alone rebuild nothing. A bake that is interrupted goes on when make runs again;
+# one that fails leaves the old slab, or none. Bakes use all processors by themselves: with many
+# lamps, `make -j` and CANNED_BAKE_FLAGS = -j 1 are faster. A script that includes what make has
+# yet to build must be told to depend on it.
+BAKESLAB ?= bakeslab
+CANNED_BAKE_FLAGS ?=
+CANNED_INCLUDE_FLAGS ?=
+CANNED_DEPENDS ?= .canned
+
+canned_blank := $() $()
+canned_quote = '$(subst ','\'',$(1))'
+# A file of one folder for a target in any: + stands before what is not the name's own.
+canned_depend = $(CANNED_DEPENDS)/$(subst /,+-,$(subst +,++,$@)).d
+
+%.tif: %.pov
+	@mkdir -p $(call canned_quote,$(CANNED_DEPENDS))
+	$(BAKESLAB) bake $(CANNED_BAKE_FLAGS) --depend $(call canned_quote,$(canned_depend)) -o $(call canned_quote,$@) $(call canned_quote,$<)
+
+%.inc: %.tif
+	$(BAKESLAB) include $(CANNED_INCLUDE_FLAGS) -o $(call canned_quote,$@) $(call canned_quote,$<)
+
+# Slabs on the way to an include file are kept.
+.PRECIOUS: %.tif
+
+# The rules read here must not choose what a bare `make` builds.
+canned_goal := $(.DEFAULT_GOAL)
+-include $(subst $(canned_blank),\ ,$(CANNED_DEPENDS))/*.d
+.DEFAULT_GOAL := $(canned_goal)
