@@ -43,9 +43,34 @@ $(FIGURES)/half.tif: $(FIGURES)/parabolic.tif | $(BAKE_BIN)
 $(FIGURES)/figure3-half.exr: $(FIGURES)/half.tif $(FIGURE3) $(RENDER_BIN)
 	$(figure3)
 
+# Figure 6: an office under two sizes of the lamp, by POV-Ray and, as a mesh, by renderslab.
+$(FIGURES)/parabolic_%.tif: lamps/parabolic_%.pov lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BAKE_BIN) $(SETUP_FIRST)
+	@mkdir -p $(@D)
+	@echo 'Baking $< (a minute)'
+	@$(BAKE_BIN) bake $< -o $@ --uv 16x16 --st 48x48 --rays 8
+
+$(FIGURES)/parabolic_%.inc: $(FIGURES)/parabolic_%.tif
+	@$(BAKE_BIN) include $< -o $@
+
+$(FIGURES)/office.obj: include-pov/office.pov include-pov/office_shapes.inc render/figure6.sh | $(SETUP_FIRST)
+	@mkdir -p $(@D)
+	@render/figure6.sh mesh $(@D)
+
+$(FIGURES)/figure6-%-povray.exr: $(FIGURES)/parabolic_%.inc $(FIGURES)/office.obj
+	@echo 'Rendering $@'
+	@render/figure6.sh by_povray $@ $(if $(filter large,$*),Declare=Large=1)
+
+$(FIGURES)/figure6-%-renderslab.exr: $(FIGURES)/parabolic_%.tif $(FIGURES)/office.obj $(RENDER_BIN)
+	@echo 'Rendering $@'
+	@RENDERSLAB=$(RENDER_BIN) render/figure6.sh by_renderslab $< $@
+
+$(FIGURES)/figure6.txt: $(foreach lamp,small large,$(FIGURES)/figure6-$(lamp)-povray.exr $(FIGURES)/figure6-$(lamp)-renderslab.exr)
+	@render/figure6.sh compare $(@D) >$@
+
 .PHONY: figures
-figures: $(FIGURES)/figure3.exr $(FIGURES)/figure3-half.exr ## render the figures of the paper
+figures: $(FIGURES)/figure3.exr $(FIGURES)/figure3-half.exr | $(FIGURES)/figure6.txt ## render the figures of the paper
 	@render/figure3.sh difference $^ $(FIGURES)/figure3-difference.png
 	@echo 'CPU seconds at 80x50 pixels, where the paper tells a factor of 7.4:'
 	@RENDERSLAB=$(RENDER_BIN) render/figure3.sh factors $(FIGURES)/parabolic.tif $(FIGURES)/half.tif
-	@echo 'Look at $(^:.exr=.png) $(FIGURES)/figure3-difference.png'
+	@cat $(FIGURES)/figure6.txt
+	@echo 'Look at $(^:.exr=.png) $(FIGURES)/figure3-difference.png $(FIGURES)/figure6-*.png'
