@@ -237,11 +237,31 @@ static enum slab_result clip(struct gather *gather, const struct visible_rectang
   return SLAB_OK;
 }
 
+/* May it see any of the page: is any of the aperture above its tangent plane, and seen through
+ * the window? */
+static bool may_see(const struct view *view) {
+  double low[2], high[2], range[2];
+  if (!(view->height > 0)) return true;
+  const double per_height = 1 / view->height;
+  for (int axis = 0; axis < 2; ++axis) {
+    const struct light_axis *along = &view->page->axes[axis];
+    const double rate = along->kappa * view->height - 1, shift = along->kappa * view->foot[axis];
+    low[axis] = (-along->half - view->foot[axis]) * per_height;
+    high[axis] = (along->half - view->foot[axis]) * per_height;
+    const double ends[2] = {shift + rate * low[axis], shift + rate * high[axis]};
+    if ((ends[0] < along->far_low && ends[1] < along->far_low) ||
+        (ends[0] > along->far_high && ends[1] > along->far_high))
+      return false;
+  }
+  kernel_heights(&view->kernel, low, high, range);
+  return range[1] > 0;
+}
+
 /* The receiver's view of the page, or of the level that its distance calls for; false where
  * the page is turned away. */
 static bool find_view(const struct gather *gather, const struct look *look, struct view *view) {
   const struct gather_settings *settings = gather->settings;
-  if (!view_find(look->page, look->receiver, view)) return false;
+  if (!view_find(look->page, look->receiver, view) || !may_see(view)) return false;
   if (!settings->aids || !settings->aids->levels) return true;
   const struct levels *levels = &settings->aids->levels[look->page_number];
   int level = settings->level < 0 ? levels_choose(levels, view) : settings->level;
