@@ -16,7 +16,7 @@ static const double scatter = 1.6;
 
 /* Costs in nanoseconds, of which only the ratios matter: of a node, of an st sample of a node, of
  * a micro light summed by the rule pi, of a strip of them; by Gauss rules instead of pi. */
-static const double node_cost = 200, sample_cost = 6, light_cost = 8, strip_cost = 36, gauss = 3;
+static const double node_cost = 70, sample_cost = 3, light_cost = 8, strip_cost = 36, gauss = 3;
 
 /* A cut must cost less than this share of the micro lights, and it is given up where what is
  * known of the errors makes it likely to cost more than the second. */
@@ -24,7 +24,7 @@ static const double worth = 0.7, hopeless = 12;
 
 /* Light of a page below this share of the most that it sends to where the receiver is may err as
  * if it were that share; and what is aimed at, since all is estimated. */
-static const double least_share = 1e-4, margin = 0.7, clipped_margin = 0.4;
+static const double least_share = 1e-4, margin = 0.8, clipped_margin = 0.4;
 
 struct cut_work {
   struct cut_view view;

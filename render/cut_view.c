@@ -238,23 +238,26 @@ static bool find_factors(struct cut_view *view, const struct cut_node *node, int
   return true;
 }
 
-static simd_float4 node_light(const float *image, size_t row, const struct factors *u,
-                              const struct factors *v) {
+/* M and V side by side, and U and W: sums of mean and slope along v at once. */
+SIMD_INLINE void node_light_body(const float *image, size_t row, const struct factors *u,
+                                 const struct factors *v, float light[4]) {
   const float *from = image + row * (size_t)v->first + (size_t)(CUT_FLOATS * u->first);
-  simd_float4 sum = {0};
+  simd_float8 sum = {0};
   for (int l = 0; l < v->count; ++l, from += row) {
-    const float *texel = from;
-    simd_float4 mean = {0}, slope = {0};
-    for (int k = 0; k < u->count; ++k, texel += CUT_FLOATS) {
-      mean += SIMD_LOAD(simd_floats4, texel) * u->mean[k] +
-              SIMD_LOAD(simd_floats4, texel + 6) * u->slope[k];
-      slope += SIMD_LOAD(simd_floats4, texel + 3) * u->mean[k] +
-               SIMD_LOAD(simd_floats4, texel + 9) * u->slope[k];
-    }
-    sum += mean * v->mean[l] + slope * v->slope[l];
+    const float *texel = from, mean = v->mean[l], slope = v->slope[l];
+    simd_float8 both = {0};
+    for (int k = 0; k < u->count; ++k, texel += CUT_FLOATS)
+      both += SIMD_LOAD(simd_floats8, texel) * u->mean[k] +
+              SIMD_LOAD(simd_floats8, texel + 6) * u->slope[k];
+    sum += both * (simd_float8){mean, mean, mean, slope, slope, slope};
   }
-  return sum;
+  for (int c = 0; c < 3; ++c) light[c] = sum[c] + sum[3 + c];
 }
+
+SIMD_DISPATCH(node_light,
+              (const float *image, size_t row, const struct factors *u, const struct factors *v,
+               float light[4]),
+              (image, row, u, v, light))
 
 static simd_float4 view_light(const float *image, size_t row, const struct factors *u,
                               const struct factors *v) {
@@ -279,16 +282,16 @@ bool cut_view_light(struct cut_view *view, const struct cut_node *node, double r
   double value = find_bends(&view->view->kernel, at, bends), most = 0;
   for (int axis = 0; axis < 2; ++axis)
     if (!find_factors(view, node, axis, &bends[axis], &factors[axis])) return false;
-  simd_float4 light;
-  if (node->level == tree->levels - 1)
-    light = view_light(page->slab.rgb + view_offset(view->view, 1, node->at[1], 0) +
+  float light[4];
+  if (node->level == tree->levels - 1) {
+    simd_float4 sum = view_light(page->slab.rgb + view_offset(view->view, 1, node->at[1], 0) +
                            view_offset(view->view, 0, node->at[0], 0),
                        3 * (size_t)slab_width(&page->slab), &factors[0], &factors[1]);
-  else
-    light =
+    memcpy(light, &sum, sizeof light);
+  } else
         node_light(tree->level[node->level].images +
                        CUT_FLOATS * cut_texels(tree) * cut_node_number(tree, node->level, node->at),
-                   (size_t)(CUT_FLOATS * page->axes[0].far_count), &factors[0], &factors[1]);
+                   (size_t)(CUT_FLOATS * page->axes[0].far_count), &factors[0], &factors[1], light);
   for (int c = 0; c < 3; ++c) {
     double more = value * (double)light[c];
     rgb[c] += more;
