@@ -31,7 +31,8 @@ struct cut_work {
   struct cut_node heap[NODES]; /* of the cut; the largest error first */
   int count;
   double light, bent, spread, square, cost; /* of the cut: sums of its nodes' */
-  double budget;
+  double tolerance;
+  double budget; /* 0: not known yet */
   uint64_t visited;
 };
 
@@ -43,6 +44,23 @@ void cut_work_free(struct cut_work *work) {
   if (!work) return;
   cut_view_free(&work->view);
   free(work);
+}
+
+/* What the micro lights cost, summed by pi or, where that is not exact enough, by Gauss rules. */
+static double budget(const struct cut_view *sees, double tolerance) {
+  double strips[2], widest = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const struct light_axis *along = &sees->view->page->axes[axis];
+    const double near = along->near_step * sees->per_height;
+    const double far = along->far_step / fabs(along->kappa * sees->view->height - 1);
+    const double cells = 2 * along->half / fabs(along->far_step) * fabs(sees->w);
+    const double share = cells > along->far_count ? along->far_count / cells : 1;
+    strips[axis] = 1 + cells * share + share * along->near_count;
+    widest = fmax(widest, fmin(near, far));
+  }
+  const double error = rule_pi_error(widest, 0);
+  const double cost = light_cost * strips[0] * strips[1] + strip_cost * (strips[0] + strips[1]);
+  return error <= tolerance ? cost : gauss * cost;
 }
 
 /* ---- The cut ---- */
@@ -116,6 +134,7 @@ static bool refine(struct cut_work *work, double tolerance, double least, double
     const double light = work->light + more, error = error_sum(work);
     const double allowed = tolerance * (light > least ? light : least);
     if (error <= allowed) break;
+    if (work->budget == 0) work->budget = budget(&work->view, work->tolerance);
     const struct cut_node top = work->heap[0];
     if (top.level == tree->levels - 1 || work->count + 4 > NODES) return false;
     const double matter = work->spread * work->spread / work->square;
@@ -164,7 +183,8 @@ static bool start(struct cut_work *work, double tolerance) {
     for (to[axis] = from[axis]; to[axis] < count && spots[to[axis]].seen;) ++to[axis];
   }
   int count = (to[0] - from[0]) * (to[1] - from[1]);
-  if (count * node_price(work, number) > worth * work->budget || count > NODES) return false;
+  if (count > 1) work->budget = budget(&work->view, work->tolerance);
+  if (count > 1 && count * node_price(work, number) > worth * work->budget || count > NODES) return false;
   if (count >= 16 && !sample_hope(work, number, from, to, tolerance)) return false;
   add_block(work, number, from, to);
   return true;
@@ -172,29 +192,13 @@ static bool start(struct cut_work *work, double tolerance) {
 
 /* ---- The sum ---- */
 
-/* What the micro lights cost, summed by pi or, where that is not exact enough, by Gauss rules. */
-static double budget(const struct cut_view *sees, double tolerance) {
-  double strips[2], widest = 0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const struct light_axis *along = &sees->view->page->axes[axis];
-    const double near = along->near_step * sees->per_height;
-    const double far = along->far_step / fabs(along->kappa * sees->view->height - 1);
-    const double cells = 2 * along->half / fabs(along->far_step) * fabs(sees->w);
-    const double share = cells > along->far_count ? along->far_count / cells : 1;
-    strips[axis] = 1 + cells * share + share * along->near_count;
-    widest = fmax(widest, fmin(near, far));
-  }
-  const double error = rule_pi_error(widest, 0);
-  const double cost = light_cost * strips[0] * strips[1] + strip_cost * (strips[0] + strips[1]);
-  return error <= tolerance ? cost : gauss * cost;
-}
-
 /* Whether all of the aperture is above the tangent plane. */
 static bool above(const struct view *view) {
+  const double per_height = 1 / view->height;
   double low[2], high[2], range[2];
   for (int axis = 0; axis < 2; ++axis) {
-    low[axis] = (-view->page->axes[axis].half - view->foot[axis]) / view->height;
-    high[axis] = (view->page->axes[axis].half - view->foot[axis]) / view->height;
+    low[axis] = (-view->page->axes[axis].half - view->foot[axis]) * per_height;
+    high[axis] = (view->page->axes[axis].half - view->foot[axis]) * per_height;
   }
   kernel_heights(&view->kernel, low, high, range);
   return range[0] > 0 && isfinite(range[1]);
@@ -214,7 +218,8 @@ bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolera
   work->count = 0;
   work->light = work->bent = work->spread = work->square = work->cost = 0;
   work->visited = 0;
-  work->budget = budget(&work->view, tolerance);
+  work->tolerance = tolerance;
+  work->budget = 0;
   double aim = margin * tolerance;
   const double per_height = work->view.per_height;
   const double least = fmax(floor, least_share * tree->brightest * per_height * per_height);

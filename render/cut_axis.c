@@ -51,6 +51,31 @@ static double moment(const struct cut_interval *interval, int power) {
   return sum;
 }
 
+/* The hinges of a piece (cut_axis.h) as polynomials: their second derivative is H y^m. */
+static void set_hinge(struct cut_interval *interval, int number) {
+  const struct cut_piece *piece = &interval->piece[number];
+  const double per = interval->per_half, width = piece->high - piece->low;
+  const double middle = (piece->low + piece->high) / 2, y = middle * per;
+  const double value = (piece->from + piece->to) / 2, rise = (piece->to - piece->from) / width;
+  float (*out)[CUT_MOMENTS] = interval->hinge[number];
+  struct cut_interval beyond = *interval;
+  beyond.piece[number].low = middle;
+  beyond.piece[number].from = value;
+  for (int k = 0; k < number; ++k) beyond.piece[k].high = beyond.piece[k].low;
+  for (int m = 0; m < CUT_MOMENTS; ++m) {
+    double power[CUT_MOMENTS + 1] = {0}, all = moment(&beyond, m) * pow(per, m);
+    out[0][m] = (float)(moment(&beyond, m + 1) * pow(per, m + 1) - y * all);
+    out[1][m] = (float)-all;
+    power[0] = 1; /* (y + t)^m, ascending */
+    for (int n = 0; n < m; ++n)
+      for (int k = n + 1; k >= 0; --k) power[k] = y * power[k] + (k > 0 ? power[k - 1] : 0);
+    for (int k = 0; k <= m + 1; ++k) {
+      double curve = value * power[k] + (k > 0 ? rise * interval->half * power[k - 1] : 0);
+      out[k + 2][m] = (float)(curve * interval->half / ((k + 1) * (k + 2)));
+    }
+  }
+}
+
 static void set_interval(const struct light_axis *axis, int first, int last,
                          struct cut_interval *interval) {
   bool begins = first == 0, ends = last == axis->near_count - 1;
@@ -71,6 +96,9 @@ static void set_interval(const struct light_axis *axis, int first, int last,
   for (int m = 0; m <= CUT_MOMENTS; ++m) interval->moment[m] = moment(interval, m);
   interval->half = fmax(high - interval->center, interval->center - low);
   interval->per_half = 1 / interval->half;
+  for (int m = 0; m <= CUT_MOMENTS; ++m)
+    interval->share[m] = (float)(interval->moment[m] * pow(interval->per_half, m));
+  for (int k = 0; k < interval->pieces; ++k) set_hinge(interval, k);
 }
 
 static void split(const struct cut_interval *from, int to, int cuts[3], int *children) {
@@ -125,13 +153,11 @@ SIMD_INLINE int whole(double at) {
   return (int)(at + 1) - 1;
 }
 
-/* Shortens a piece to what is seen of it: within the limits and the st window. */
-static bool see(const struct cut_interval *interval, const struct cut_sight *sight, int far_count,
-                struct cut_piece *range) {
+/* Shortens a piece to what is seen of it within the st window. */
+static bool see(const struct cut_sight *sight, int far_count, struct cut_piece *range) {
   const struct cut_piece piece = *range;
   double rise = (piece.to - piece.from) / (piece.high - piece.low);
-  double low = most(piece.low, sight->limits[0] - interval->center);
-  double high = least(piece.high, sight->limits[1] - interval->center);
+  double low = piece.low, high = piece.high;
   double ends[2] = {sight->place + sight->rate * low, sight->place + sight->rate * high};
   for (int side = 0; side < 2; ++side) {
     double edge = side ? far_count - 0.5 : -0.5, sign = side ? 1 : -1;
@@ -147,42 +173,30 @@ static bool see(const struct cut_interval *interval, const struct cut_sight *sig
   return high > low;
 }
 
-typedef double pair __attribute__((vector_size(16)));
-
 /* Sums being made; a row for each st sample. */
 struct sums {
-  double moment[CUT_TAPS][CUT_MOMENTS];
+  simd_float4 moment[CUT_TAPS];
 };
 
 /* Adds the part of a piece that lies in one cell, between samples `cell` and `cell` + 1. */
-SIMD_INLINE void add_cell(const struct cut_sight *sight, int cell, const struct cut_piece *part,
-                          double *lower_to, double *upper_to) {
-  const double width = part->high - part->low, scale = sight->scale;
-  pair all[2] = {{0}, {0}}, upper[2] = {{0}, {0}};
+SIMD_INLINE void add_cell(const struct cut_interval *interval, const struct cut_sight *sight,
+                          int cell, const struct cut_piece *part, simd_float4 *lower,
+                          simd_float4 *upper) {
+  const double width = part->high - part->low, unit = width * sight->scale;
   for (int g = 0; g < 3; ++g) {
-    double d = part->low + gauss_at[g] * width, x = d * scale;
+    double d = part->low + gauss_at[g] * width;
     double up = sight->place + sight->rate * d - cell;
-    double value = (part->from + gauss_at[g] * (part->to - part->from)) * gauss_weight[g];
-    up = least(most(up, 0), 1);
-    pair first = {value, value * x}, second = first * (x * x);
-    all[0] += first;
-    all[1] += second;
-    upper[0] += first * up;
-    upper[1] += second * up;
-  }
-  const double unit = width * scale;
-  for (int half = 0; half < 2; ++half) {
-    pair lower = (all[half] - upper[half]) * unit, higher = upper[half] * unit;
-    lower_to[2 * half] += lower[0];
-    lower_to[2 * half + 1] += lower[1];
-    upper_to[2 * half] += higher[0];
-    upper_to[2 * half + 1] += higher[1];
+    double value = (part->from + gauss_at[g] * (part->to - part->from)) * gauss_weight[g] * unit;
+    float y = (float)(d * interval->per_half), share = (float)least(most(up, 0), 1);
+    simd_float4 all = (float)value * (simd_float4){1, y, y * y, y * y * y};
+    *lower += all * (1 - share);
+    *upper += all * share;
   }
 }
 
 /* Cuts a piece at the st samples. */
-static void add_cells(const struct cut_sight *sight, int first, int far_count,
-                      const struct cut_piece *piece, struct sums *sums) {
+static void add_cells(const struct cut_interval *interval, const struct cut_sight *sight, int first,
+                      int far_count, const struct cut_piece *piece, struct sums *sums) {
   const int step = sight->rate < 0 ? -1 : 1;
   int cell = whole(sight->place + sight->rate * piece->low);
   const int last = whole(sight->place + sight->rate * piece->high);
@@ -196,8 +210,8 @@ static void add_cells(const struct cut_sight *sight, int first, int far_count,
       part.to = piece->from + rise * (part.high - piece->low);
     }
     if (part.high > part.low) {
-      add_cell(sight, cell, &part, sums->moment[clamp(cell, far_count - 1) - first],
-               sums->moment[clamp(cell + 1, far_count - 1) - first]);
+      add_cell(interval, sight, cell, &part, &sums->moment[clamp(cell, far_count - 1) - first],
+               &sums->moment[clamp(cell + 1, far_count - 1) - first]);
       part.low = part.high;
       part.from = part.to;
     }
@@ -205,70 +219,62 @@ static void add_cells(const struct cut_sight *sight, int first, int far_count,
   }
 }
 
-/* Adds what lies beyond st sample `line`, on the side where (st sample - line) * side > 0: there
- * the radiance bends away from the line through the cell of the center, by its second difference
- * at `line`. */
-static void add_bend(const struct cut_interval *interval, const struct cut_sight *sight, int line,
-                     int side, double *before, double *at, double *after) {
-  const double crossing = (line - sight->place) / sight->rate, speed = fabs(sight->rate);
-  const bool above = (side > 0) == (sight->rate > 0);
-  pair sum[2] = {{0}, {0}};
-  for (int k = 0; k < interval->pieces; ++k) {
-    const struct cut_piece *piece = &interval->piece[k];
-    double low = above ? most(piece->low, crossing) : piece->low;
-    double high = above ? piece->high : least(piece->high, crossing);
-    if (!(high > low)) continue;
-    double rise = (piece->to - piece->from) / (piece->high - piece->low);
-    for (int g = 0; g < 3; ++g) {
-      double d = low + gauss_at[g] * (high - low), x = d * sight->scale;
-      double beyond = speed * (above ? d - crossing : crossing - d);
-      double value =
-          (piece->from + rise * (d - piece->low)) * gauss_weight[g] * (high - low) * beyond;
-      pair first = {value, value * x};
-      sum[0] += first;
-      sum[1] += first * (x * x);
-    }
-  }
-  for (int m = 0; m < CUT_MOMENTS; ++m) {
-    double bend = sum[m / 2][m % 2] * sight->scale;
-    before[m] += bend;
-    at[m] -= 2 * bend;
-    after[m] += bend;
-  }
+/* Integrals of H y^m times the distance beyond `crossing`, above it or below. */
+SIMD_INLINE simd_float4 find_hinge(const struct cut_interval *interval, double crossing,
+                                   bool above) {
+  int k = 0;
+  while (k < interval->pieces - 1 && crossing > interval->piece[k].high) ++k;
+  const struct cut_piece *piece = &interval->piece[k];
+  const float y = (float)(crossing * interval->per_half);
+  const float t = (float)((crossing - (piece->low + piece->high) / 2) * interval->per_half);
+  simd_float4 sum = {0};
+  for (int power = CUT_HINGE - 1; power >= 0; --power)
+    sum = sum * t + SIMD_LOAD(simd_floats4, interval->hinge[k][power]);
+  if (above) return sum;
+  return sum - (SIMD_LOAD(simd_floats4, interval->share + 1) -
+                y * SIMD_LOAD(simd_floats4, interval->share));
 }
 
 /* An interval that is seen whole and over few st samples: as if radiance were linear in all of
- * it, and bends at the samples. */
+ * it, as in the cell of the center, and bends at the samples by its second differences there. */
 static void add_whole(const struct cut_interval *interval, const struct cut_sight *sight, int low,
                       int high, int first, int far_count, struct sums *sums) {
-  const int center = whole(sight->place);
-  double *lower = sums->moment[clamp(center, far_count - 1) - first];
-  double *upper = sums->moment[clamp(center + 1, far_count - 1) - first];
-  double up = sight->place - center, unit = sight->scale;
-  for (int m = 0; m < CUT_MOMENTS; ++m, unit *= sight->scale) {
-    double all = interval->moment[m] * unit;
-    double more = (up * interval->moment[m] + sight->rate * interval->moment[m + 1]) * unit;
-    lower[m] += all - more;
-    upper[m] += more;
-  }
+  const int center = whole(sight->place), last = far_count - 1;
+  const float up = (float)(sight->place - center), unit = (float)sight->scale;
+  const float slope = (float)(sight->rate * interval->half), speed = slope < 0 ? -slope : slope;
+  const simd_float4 all = SIMD_LOAD(simd_floats4, interval->share) * unit;
+  const simd_float4 next = SIMD_LOAD(simd_floats4, interval->share + 1) * unit;
+  const simd_float4 more = all * up + next * slope;
+  sums->moment[clamp(center, last) - first] += all - more;
+  sums->moment[clamp(center + 1, last) - first] += more;
   for (int line = low + 1; line <= high; ++line) {
-    int side = line > center ? 1 : -1;
-    add_bend(interval, sight, line, side, sums->moment[clamp(line - side, far_count - 1) - first],
-             sums->moment[clamp(line, far_count - 1) - first],
-             sums->moment[clamp(line + side, far_count - 1) - first]);
+    const int side = line > center ? 1 : -1;
+    const double crossing = (line - sight->place) / sight->rate;
+    const bool above = (side > 0) == (slope > 0);
+    const simd_float4 bend = find_hinge(interval, crossing, above) * (speed * unit);
+    sums->moment[clamp(line - side, last) - first] += bend;
+    sums->moment[clamp(line, last) - first] -= bend + bend;
+    sums->moment[clamp(line + side, last) - first] += bend;
   }
 }
 
-static void store(const struct sums *sums, struct cut_taps *taps) {
-  for (int m = 0; m < CUT_MOMENTS; ++m) {
-    int k = 0;
-    for (; k < taps->count; ++k) taps->moment[m][k] = (float)sums->moment[k][m];
-    for (; k & 3; ++k) taps->moment[m][k] = 0;
+static void store(struct sums *sums, struct cut_taps *taps) {
+  for (int k = taps->count; k & 3; ++k) sums->moment[k] = (simd_float4){0};
+  for (int k = 0; k < taps->count; k += 4) {
+    const simd_float4 *row = sums->moment + k;
+    const simd_float4 low[2] = {__builtin_shufflevector(row[0], row[1], 0, 4, 1, 5),
+                                __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5)};
+    const simd_float4 high[2] = {__builtin_shufflevector(row[0], row[1], 2, 6, 3, 7),
+                                 __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7)};
+    *(simd_floats4 *)(taps->moment[0] + k) = __builtin_shufflevector(low[0], low[1], 0, 1, 4, 5);
+    *(simd_floats4 *)(taps->moment[1] + k) = __builtin_shufflevector(low[0], low[1], 2, 3, 6, 7);
+    *(simd_floats4 *)(taps->moment[2] + k) = __builtin_shufflevector(high[0], high[1], 0, 1, 4, 5);
+    *(simd_floats4 *)(taps->moment[3] + k) = __builtin_shufflevector(high[0], high[1], 2, 3, 6, 7);
   }
 }
 
 /* Where bends are cheaper than pieces: st samples inside the interval. */
-enum { FEW = 2 };
+enum { FEW = 4 };
 
 bool cut_taps_find(const struct cut_interval *interval, const struct cut_sight *sight,
                    int far_count, struct cut_taps *taps) {
@@ -279,7 +285,7 @@ bool cut_taps_find(const struct cut_interval *interval, const struct cut_sight *
   for (int k = 0; k < interval->pieces; ++k) {
     struct cut_piece *piece = &pieces[count];
     *piece = interval->piece[k];
-    if (sight->clipped && !see(interval, sight, far_count, piece)) continue;
+    if (sight->clipped && !see(sight, far_count, piece)) continue;
     double first = sight->place + sight->rate * piece->low;
     double second = sight->place + sight->rate * piece->high;
     low = least(low, least(first, second));
@@ -295,7 +301,8 @@ bool cut_taps_find(const struct cut_interval *interval, const struct cut_sight *
   if (!sight->clipped && whole(high) - whole(low) <= FEW)
     add_whole(interval, sight, whole(low), whole(high), taps->first, far_count, &sums);
   else
-    for (int k = 0; k < count; ++k) add_cells(sight, taps->first, far_count, &pieces[k], &sums);
+    for (int k = 0; k < count; ++k) 
+      add_cells(interval, sight, taps->first, far_count, &pieces[k], &sums);
   store(&sums, taps);
   return true;
 }

@@ -13,7 +13,7 @@
 #include "light.h"
 #include "slab_error.h"
 
-enum { CUT_LEVELS = 16, CUT_TAPS = 16, CUT_MOMENTS = 4 };
+enum { CUT_LEVELS = 16, CUT_TAPS = 16, CUT_MOMENTS = 4, CUT_HINGE = CUT_MOMENTS + 3 };
 
 /* A part of an interval on which H is linear: from `from` at `low` to `to` at `high`. */
 struct cut_piece {
@@ -30,6 +30,10 @@ struct cut_interval {
   double moment[CUT_MOMENTS + 1]; /* integral of H (a - center)^m */
   int pieces;
   struct cut_piece piece[3];
+  /* With y = (a - center)/half: integrals of H y^m da; and for each piece those of H y^m times
+   * (y - y0)+, as a polynomial of y0 from the piece's middle, ascending. */
+  float share[CUT_MOMENTS + 1];
+  float hinge[3][CUT_HINGE][CUT_MOMENTS];
 };
 
 /* Level 0 is one block, each further one halves all blocks of more than one view. */
@@ -47,16 +51,14 @@ enum slab_result cut_axis_make(const struct light_axis *axis, int levels, struct
                                struct slab_error *error);
 void cut_axis_free(struct cut_axis *axis);
 
-/* How a receiver sees an interval: the st sample number at a is place + rate (a - center), and
- * its slope from the one at the center is (a - center) * scale. Only limits[0] <= a <= limits[1]
- * is seen. */
+/* How a receiver sees an interval: the st sample number at a is place + rate (a - center), and a
+ * length of the aperture is worth `scale`. */
 struct cut_sight {
   double place, rate, scale;
-  double limits[2];
-  bool clipped; /* by the limits or by the st window; false where that is known not to be */
+  bool clipped; /* by the st window; false where that is known not to be */
 };
 
-/* moment[m][k]: integral of H hat_(first+k) X^m dX with X = (a - center) scale; 0 from `count` on
+/* moment[m][k]: integral of H hat_(first+k) y^m scale da with y = (a - center)/half; 0 from `count` on
  * to the next multiple of 4. Rays beyond the st window bring nothing. */
 struct cut_taps {
   int first, count; /* st samples; count 0: nothing is seen */

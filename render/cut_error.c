@@ -66,8 +66,7 @@ static void find_weights(const struct light_axis *axis, const struct cut_interva
                          struct weights *weights) {
   const double scale = 1 / node->half, unit = node->half / node->moment[0];
   bool same = true; /* as in the middle */
-  struct cut_sight sight = {
-      .rate = rate, .scale = scale, .limits = {-INFINITY, INFINITY}, .clipped = true};
+  struct cut_sight sight = {.rate = rate, .scale = scale, .clipped = true};
   const double reach = fabs(rate) * part->half,
                shift = offset + rate * (part->center - node->center);
   const int middle = axis->far_count / 2;

@@ -50,10 +50,10 @@ bool cut_view_begin(const struct cut_tree *tree, const struct view *view, struct
 }
 
 /* At most one st sample is within a narrow view. */
-static void set_line(struct cut_spot *spot, double reach, int far_count) {
+static void set_line(struct cut_spot *spot, double reach, double per_reach, int far_count) {
   spot->line = spot->cell + (spot->place - spot->cell > 0.5 && spot->cell < far_count - 1);
   double off = fabs(spot->place - spot->line);
-  spot->bend = off < reach ? reach - off * off / reach : 0;
+  spot->bend = off < reach ? reach - off * off * per_reach : 0;
 }
 
 static void set_spots(const struct cut_view *view, int level, int axis, struct cut_spot *spot) {
@@ -63,6 +63,7 @@ static void set_spots(const struct cut_view *view, int level, int axis, struct c
   const double shift = along->kappa * q - along->far_low,
                rate = along->kappa * view->view->height - 1;
   const double per_step = 1 / along->far_step, speed = fabs(view->rate[axis]);
+  const double per_speed = 1 / speed;
   const struct cut_interval *interval = tree->level[level];
   for (int k = 0; k < tree->count[level]; ++k, ++spot, ++interval) {
     spot->slope = (interval->center - q) * view->per_height;
@@ -74,7 +75,7 @@ static void set_spots(const struct cut_view *view, int level, int axis, struct c
     spot->cell = !(spot->place > 0)                   ? 0
                  : spot->place < along->far_count - 1 ? (int)spot->place
                                                       : along->far_count - 1;
-    set_line(spot, reach, along->far_count);
+    set_line(spot, reach, per_speed * interval->per_half, along->far_count);
     spot->taps = NULL;
   }
 }
@@ -144,7 +145,8 @@ bool cut_view_estimate(const struct cut_view *view, int number, const int at[2],
   const struct kernel *kernel = &view->view->kernel;
   const bool whole = spot[0]->whole && spot[1]->whole;
   const double x = spot[0]->slope, y = spot[1]->slope, square = 1 + x * x + y * y;
-  const double g = kernel_height(kernel, x, y), per_square = 1 / square, per_g = 1 / g;
+  const double g = kernel_height(kernel, x, y), per = 1 / (g * square);
+  const double per_square = per * g, per_g = per * square;
   const double value = g * per_square * per_square * spot[0]->size * spot[1]->size;
   const double reach = larger(level->reach[0], level->reach[1]), root = sqrt(square);
   const double flat = reach * reach * per_square, narrow = reach * root * per_square;
@@ -188,7 +190,8 @@ struct bend {
 
 static double find_bends(const struct kernel *kernel, const double at[2], struct bend bends[2]) {
   const double g = kernel_height(kernel, at[0], at[1]);
-  const double per_g = 1 / g, per_square = 1 / (1 + at[0] * at[0] + at[1] * at[1]);
+  const double square = 1 + at[0] * at[0] + at[1] * at[1], per = 1 / (g * square);
+  const double per_g = per * square, per_square = per * g;
   for (int axis = 0; axis < 2; ++axis) {
     const double n = kernel->normal[axis] * per_g, p = at[axis] * per_square;
     bends[axis] = (struct bend){n - 4 * p, -4 * n * p - 2 * per_square + 12 * p * p};
@@ -202,7 +205,6 @@ static const struct cut_taps *find_taps(struct cut_view *view, int level, int ax
   const struct cut_sight sight = {.place = spot->place,
                                   .rate = view->rate[axis],
                                   .scale = view->per_height,
-                                  .limits = {-INFINITY, INFINITY},
                                   .clipped = !spot->whole};
   spot->taps = &view->taps[view->taps_used++];
   if (!cut_taps_find(&view->tree->axes[axis].level[level][at], &sight,
@@ -221,9 +223,9 @@ static bool find_factors(struct cut_view *view, const struct cut_node *node, int
                          const struct bend *bend, struct factors *factors) {
   const struct cut_taps *taps = find_taps(view, node->level, axis, node->at[axis]);
   if (taps->count < 0) return false;
-  const double unit =
-      view->view->height * view->tree->axes[axis].level[node->level][node->at[axis]].per_half;
-  const float first = (float)bend->first, second = (float)bend->second, per = (float)unit;
+  const double half =
+      view->per_height * view->tree->axes[axis].level[node->level][node->at[axis]].half;
+  const float first = (float)(bend->first * half), second = (float)(bend->second * half * half);
   factors->first = taps->first;
   factors->count = taps->count;
   for (int k = 0; k < taps->count; k += 4) {
@@ -231,7 +233,7 @@ static bool find_factors(struct cut_view *view, const struct cut_node *node, int
     for (int power = 0; power < CUT_MOMENTS; ++power)
       m[power] = SIMD_LOAD(simd_floats4, taps->moment[power] + k);
     simd_float4 mean = m[0] + m[1] * first + m[2] * second;
-    simd_float4 slope = (m[1] + m[2] * first + m[3] * second) * per;
+    simd_float4 slope = m[1] + m[2] * first + m[3] * second;
     memcpy(factors->mean + k, &mean, sizeof mean);
     memcpy(factors->slope + k, &slope, sizeof slope);
   }
