@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cut_view.h"
+#include "cut_views.h"
 #include "rule.h"
 
 enum { NODES = 1024, ROUNDS = 4 };
@@ -28,26 +29,36 @@ static const double least_share = 1e-4, margin = 0.8, clipped_margin = 0.4;
 
 struct cut_work {
   struct cut_view view;
+  struct cut_views *views; /* owned */
   struct cut_node heap[NODES]; /* of the cut; the largest error first */
   int count;
   double light, bent, spread, square, cost; /* of the cut: sums of its nodes' */
   double tolerance;
+  bool views_do; /* all views at once are exact enough */
   double budget; /* 0: not known yet */
   uint64_t visited;
 };
 
 struct cut_work *cut_work_make(void) {
-  return calloc(1, sizeof(struct cut_work));
+  struct cut_work *made = calloc(1, sizeof *made);
+  if (made) made->views = cut_views_make();
+  if (made && made->views) return made;
+  cut_work_free(made);
+  return NULL;
 }
 
 void cut_work_free(struct cut_work *work) {
   if (!work) return;
   cut_view_free(&work->view);
+  cut_views_free(work->views);
   free(work);
 }
 
-/* What the micro lights cost, summed by pi or, where that is not exact enough, by Gauss rules. */
-static double budget(const struct cut_view *sees, double tolerance) {
+/* What it costs otherwise: all views at once or, where these are not exact enough, the micro lights,
+ * summed by pi or else by Gauss rules. */
+static double budget(const struct cut_work *work) {
+  const struct cut_view *sees = &work->view;
+  if (work->views_do) return cut_views_price(sees->tree, sees->view);
   double strips[2], widest = 0;
   for (int axis = 0; axis < 2; ++axis) {
     const struct light_axis *along = &sees->view->page->axes[axis];
@@ -60,7 +71,7 @@ static double budget(const struct cut_view *sees, double tolerance) {
   }
   const double error = rule_pi_error(widest, 0);
   const double cost = light_cost * strips[0] * strips[1] + strip_cost * (strips[0] + strips[1]);
-  return error <= tolerance ? cost : gauss * cost;
+  return error <= work->tolerance ? cost : gauss * cost;
 }
 
 /* ---- The cut ---- */
@@ -134,7 +145,7 @@ static bool refine(struct cut_work *work, double tolerance, double least, double
     const double light = work->light + more, error = error_sum(work);
     const double allowed = tolerance * (light > least ? light : least);
     if (error <= allowed) break;
-    if (work->budget == 0) work->budget = budget(&work->view, work->tolerance);
+    if (work->budget == 0) work->budget = budget(work);
     const struct cut_node top = work->heap[0];
     if (top.level == tree->levels - 1 || work->count + 4 > NODES) return false;
     const double matter = work->spread * work->spread / work->square;
@@ -183,7 +194,7 @@ static bool start(struct cut_work *work, double tolerance) {
     for (to[axis] = from[axis]; to[axis] < count && spots[to[axis]].seen;) ++to[axis];
   }
   int count = (to[0] - from[0]) * (to[1] - from[1]);
-  if (count > 1) work->budget = budget(&work->view, work->tolerance);
+  if (count > 1) work->budget = budget(work);
   if (count > 1 && count * node_price(work, number) > worth * work->budget || count > NODES) return false;
   if (count >= 16 && !sample_hope(work, number, from, to, tolerance)) return false;
   add_block(work, number, from, to);
@@ -211,6 +222,30 @@ static bool is_clipped(const struct cut_view *sees) {
   return root->wide && !(root->spots[0]->whole && root->spots[1]->whole);
 }
 
+/* A cut's sum. False: it is too expensive. */
+static bool sum_cut(struct cut_work *work, double floor, double irradiance[3], double *predicted) {
+  const struct cut_tree *tree = work->view.tree;
+  const double per_height = work->view.per_height;
+  const double least = fmax(floor, least_share * tree->brightest * per_height * per_height);
+  double aim = margin * work->tolerance, more = 0, error = 0, most = 0;
+  if (!start(work, aim)) return false;
+  if (is_clipped(&work->view)) aim *= clipped_margin;
+  for (int round = 0; round < ROUNDS; ++round) {
+    double rgb[3] = {0}, bent = 0;
+    if (!refine(work, aim, least, more)) return false;
+    for (int k = 0; k < work->count; ++k)
+      if (!cut_view_light(&work->view, &work->heap[k], rgb, &bent)) return false;
+    most = fmax(fmax(fmax(rgb[0], rgb[1]), rgb[2]), least);
+    error = error_sum(work) + bent;
+    memcpy(irradiance, rgb, sizeof rgb);
+    *predicted = most > 0 ? error / most : 0;
+    if (error <= aim * most) return true;
+    if (bent > aim * most) return false;
+    more = most - bent / aim - work->light;
+  }
+  return false;
+}
+
 bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolerance, double floor,
              struct cut_work *work, double irradiance[3], struct cut_counts *counts) {
   if (view->kernel.shininess > 0 || !(view->height > 0) || !above(view)) return false;
@@ -220,27 +255,15 @@ bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolera
   work->visited = 0;
   work->tolerance = tolerance;
   work->budget = 0;
-  double aim = margin * tolerance;
-  const double per_height = work->view.per_height;
-  const double least = fmax(floor, least_share * tree->brightest * per_height * per_height);
-  double more = 0, error = 0, most = 0;
-  bool done = false;
-  if (!start(work, aim)) return false;
-  if (is_clipped(&work->view)) aim *= clipped_margin;
-  for (int round = 0; !done; ++round) {
-    double rgb[3] = {0}, bent = 0;
-    if (round == ROUNDS || !refine(work, aim, least, more)) return false;
-    for (int k = 0; k < work->count; ++k)
-      if (!cut_view_light(&work->view, &work->heap[k], rgb, &bent)) return false;
-    most = fmax(fmax(fmax(rgb[0], rgb[1]), rgb[2]), least);
-    error = error_sum(work) + bent;
-    done = error <= aim * most;
-    if (bent > aim * most) return false;
-    more = most - bent / aim - work->light;
-    memcpy(irradiance, rgb, sizeof rgb);
+  const double error = cut_views_error(tree, view);
+  work->views_do = error <= tolerance;
+  if (sum_cut(work, floor, irradiance, &counts->error)) {
+    counts->nodes += (uint64_t)work->count;
+    counts->visited += work->visited;
+    return true;
   }
-  counts->nodes += (uint64_t)work->count;
-  counts->visited += work->visited;
-  counts->error = most > 0 ? error / most : 0;
+  if (!work->views_do || !cut_views_sum(tree, view, work->views, irradiance)) return false;
+  counts->views += (uint64_t)view->page->axes[0].near_count * (uint64_t)view->page->axes[1].near_count;
+  counts->error = error;
   return true;
 }

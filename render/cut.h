@@ -46,6 +46,7 @@ double cut_bytes(const struct cut_tree *tree);
 struct cut_counts {
   uint64_t nodes;   /* summed */
   uint64_t visited; /* looked at */
+  uint64_t views;   /* summed all at once, see cut_views.h */
   double error;     /* predicted, of the last sum */
 };
 
