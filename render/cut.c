@@ -25,11 +25,11 @@ static const double worth = 0.7, hopeless = 12;
 
 /* Light of a page below this share of the most that it sends to where the receiver is may err as
  * if it were that share; and what is aimed at, since all is estimated. */
-static const double least_share = 1e-4, margin = 0.8, clipped_margin = 0.4;
+static const double least_share = 1e-4, margin = 0.75, clipped_margin = 0.4;
 
 struct cut_work {
   struct cut_view view;
-  struct cut_views *views; /* owned */
+  struct cut_views *views;     /* owned */
   struct cut_node heap[NODES]; /* of the cut; the largest error first */
   int count;
   double light, bent, spread, square, cost; /* of the cut: sums of its nodes' */
@@ -54,11 +54,11 @@ void cut_work_free(struct cut_work *work) {
   free(work);
 }
 
-/* What it costs otherwise: all views at once or, where these are not exact enough, the micro lights,
- * summed by pi or else by Gauss rules. */
+/* What it costs otherwise: all views at once or, where these are not exact enough, the micro
+ * lights, summed by pi or else by Gauss rules. */
 static double budget(const struct cut_work *work) {
   const struct cut_view *sees = &work->view;
-  if (work->views_do) return cut_views_price(sees->tree, sees->view);
+  if (work->views_do) return cut_views_price(sees->view);
   double strips[2], widest = 0;
   for (int axis = 0; axis < 2; ++axis) {
     const struct light_axis *along = &sees->view->page->axes[axis];
@@ -194,8 +194,11 @@ static bool start(struct cut_work *work, double tolerance) {
     for (to[axis] = from[axis]; to[axis] < count && spots[to[axis]].seen;) ++to[axis];
   }
   int count = (to[0] - from[0]) * (to[1] - from[1]);
-  if (count > 1) work->budget = budget(work);
-  if (count > 1 && count * node_price(work, number) > worth * work->budget || count > NODES) return false;
+  if (count > NODES) return false;
+  if (count > 1) {
+    work->budget = budget(work);
+    if (count * node_price(work, number) > worth * work->budget) return false;
+  }
   if (count >= 16 && !sample_hope(work, number, from, to, tolerance)) return false;
   add_block(work, number, from, to);
   return true;
@@ -255,7 +258,7 @@ bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolera
   work->visited = 0;
   work->tolerance = tolerance;
   work->budget = 0;
-  const double error = cut_views_error(tree, view);
+  const double error = cut_views_error(view);
   work->views_do = error <= tolerance;
   if (sum_cut(work, floor, irradiance, &counts->error)) {
     counts->nodes += (uint64_t)work->count;
@@ -263,7 +266,8 @@ bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolera
     return true;
   }
   if (!work->views_do || !cut_views_sum(tree, view, work->views, irradiance)) return false;
-  counts->views += (uint64_t)view->page->axes[0].near_count * (uint64_t)view->page->axes[1].near_count;
+  counts->views +=
+      (uint64_t)view->page->axes[0].near_count * (uint64_t)view->page->axes[1].near_count;
   counts->error = error;
   return true;
 }

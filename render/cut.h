@@ -12,11 +12,11 @@
  * sum is within the tolerance. Estimates: what was measured when the tree was built, for the
  * node's view of st; what the kernel's expansion leaves out.
  *
- * The micro lights do it instead, and cut_sum returns false, for glossy receivers, where the
- * tangent plane cuts the aperture, where not even single views are exact enough, and where the
- * cut is expected to be no faster, as near the aperture or for rough lamps. Finding that out can
- * cost a fifth of the micro lights. Both
- * sides keep the tolerance, so nothing is seen where one hands over to the other.
+ * Where that takes more than all views at once (cut_views.h), and these are exact enough, they are
+ * summed instead. The micro lights do it, and cut_sum returns false, for glossy receivers, where
+ * the tangent plane cuts the aperture, and near the aperture, where neither is exact enough or any
+ * faster. Finding that out can cost a fifth of the micro lights. All of them keep the tolerance, so
+ * nothing is seen where one hands over to another.
  *
  * The error of a page's light: the largest of the channels' absolute errors, relative to the
  * largest channel, or to 1e-4 of the most that the page can send to the receiver's height,

@@ -57,7 +57,7 @@ static void set_hinge(struct cut_interval *interval, int number) {
   const double per = interval->per_half, width = piece->high - piece->low;
   const double middle = (piece->low + piece->high) / 2, y = middle * per;
   const double value = (piece->from + piece->to) / 2, rise = (piece->to - piece->from) / width;
-  float (*out)[CUT_MOMENTS] = interval->hinge[number];
+  float(*out)[CUT_MOMENTS] = interval->hinge[number];
   struct cut_interval beyond = *interval;
   beyond.piece[number].low = middle;
   beyond.piece[number].from = value;
@@ -301,7 +301,7 @@ bool cut_taps_find(const struct cut_interval *interval, const struct cut_sight *
   if (!sight->clipped && whole(high) - whole(low) <= FEW)
     add_whole(interval, sight, whole(low), whole(high), taps->first, far_count, &sums);
   else
-    for (int k = 0; k < count; ++k) 
+    for (int k = 0; k < count; ++k)
       add_cells(interval, sight, taps->first, far_count, &pieces[k], &sums);
   store(&sums, taps);
   return true;

@@ -58,8 +58,8 @@ struct cut_sight {
   bool clipped; /* by the st window; false where that is known not to be */
 };
 
-/* moment[m][k]: integral of H hat_(first+k) y^m scale da with y = (a - center)/half; 0 from `count` on
- * to the next multiple of 4. Rays beyond the st window bring nothing. */
+/* moment[m][k]: integral of H hat_(first+k) y^m scale da with y = (a - center)/half; 0 from `count`
+ * on to the next multiple of 4. Rays beyond the st window bring nothing. */
 struct cut_taps {
   int first, count; /* st samples; count 0: nothing is seen */
   float moment[CUT_MOMENTS][CUT_TAPS];

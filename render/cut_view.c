@@ -287,13 +287,13 @@ bool cut_view_light(struct cut_view *view, const struct cut_node *node, double r
   float light[4];
   if (node->level == tree->levels - 1) {
     simd_float4 sum = view_light(page->slab.rgb + view_offset(view->view, 1, node->at[1], 0) +
-                           view_offset(view->view, 0, node->at[0], 0),
-                       3 * (size_t)slab_width(&page->slab), &factors[0], &factors[1]);
+                                     view_offset(view->view, 0, node->at[0], 0),
+                                 3 * (size_t)slab_width(&page->slab), &factors[0], &factors[1]);
     memcpy(light, &sum, sizeof light);
   } else
-        node_light(tree->level[node->level].images +
-                       CUT_FLOATS * cut_texels(tree) * cut_node_number(tree, node->level, node->at),
-                   (size_t)(CUT_FLOATS * page->axes[0].far_count), &factors[0], &factors[1], light);
+    node_light(tree->level[node->level].images +
+                   CUT_FLOATS * cut_texels(tree) * cut_node_number(tree, node->level, node->at),
+               (size_t)(CUT_FLOATS * page->axes[0].far_count), &factors[0], &factors[1], light);
   for (int c = 0; c < 3; ++c) {
     double more = value * (double)light[c];
     rgb[c] += more;

@@ -24,9 +24,8 @@ struct cut_views {
 };
 
 struct cut_views *cut_views_make(void) {
-  return aligned_alloc(sizeof(simd_float8),
-                       (sizeof(struct cut_views) + sizeof(simd_float8) - 1) / sizeof(simd_float8) *
-                           sizeof(simd_float8));
+  return aligned_alloc(sizeof(simd_float8), (sizeof(struct cut_views) + sizeof(simd_float8) - 1) /
+                                                sizeof(simd_float8) * sizeof(simd_float8));
 }
 
 void cut_views_free(struct cut_views *views) {
@@ -79,24 +78,22 @@ struct weights {
 static bool weigh_hat(double place, double width, double slope, double all, struct weights *out) {
   const int cell = (int)place, low = (int)(place - width), high = (int)(place + width);
   const int first = low < high ? low : cell, count = high - first + 2;
-  const double reach = fabs(width), up = place - cell, per = 1 / width;
-  double sum[CUT_TAPS] = {0};
+  const double up = place - cell, per = 1 / width, turn = slope * width / 6;
+  float *sum = out->weight;
   if (count > CUT_TAPS) return false;
-  
-  const double turn = slope * width / 6;
-  sum[cell - first] += all * (1 - up) - turn;
-  sum[cell - first + 1] += all * up + turn;
+  out->first = first;
+  out->count = count;
+  for (int k = 0; k < count; ++k) sum[k] = 0;
+  sum[cell - first] = (float)(all * (1 - up) - turn);
+  sum[cell - first + 1] = (float)(all * up + turn);
   for (int line = low + 1; line <= high; ++line) {
     const double d = place - line, q = 1 - fabs(d) * per, cube = q * q * q / 6 * width;
     const double odd = slope * cube * (1 - q / 2);
-    const double bend = all * cube + (line <= cell ? -odd : odd);
+    const float bend = (float)(all * cube + (line <= cell ? -odd : odd));
     sum[line - 1 - first] += bend;
     sum[line - first] -= 2 * bend;
     sum[line + 1 - first] += bend;
   }
-  out->first = first;
-  out->count = count;
-  for (int k = 0; k < count; ++k) out->weight[k] = (float)sum[k];
   return true;
 }
 
@@ -109,21 +106,23 @@ static bool weigh(const struct sees *sees, const struct cut_interval *view, doub
   const double place = (sees->shift + sees->rate * *x) * sees->per_step - 0.5;
   const double reach = fabs(sees->speed) * view->half;
   const double first = (sees->first[0] + sees->first[1] * *x) * view->half * sees->per_height;
-  const double second = sees->second * view->half * view->half * sees->per_height * sees->per_height;
+  const double second =
+      sees->second * view->half * view->half * sees->per_height * sees->per_height;
   const bool inner = view->first > 0 && view->last < axis->near_count - 1;
   if (inner && place - reach >= 0 && place + reach < last)
     return weigh_hat(place, reach, sees->speed < 0 ? -first : first, 1 + second / 6, out);
   const struct cut_sight sight = {.place = place,
                                   .rate = sees->speed,
                                   .scale = 1 / axis->near_step,
-                                  .clipped = !(place - reach >= -0.5 && place + reach <= last + 0.5)};
+                                  .clipped =
+                                      !(place - reach >= -0.5 && place + reach <= last + 0.5)};
   struct cut_taps taps;
   if (!cut_taps_find(view, &sight, axis->far_count, &taps)) return false;
   out->first = taps.first;
   out->count = taps.count;
   for (int k = 0; k < taps.count; ++k)
-    out->weight[k] = taps.moment[0][k] + taps.moment[1][k] * (float)first +
-                     taps.moment[2][k] * (float)second;
+    out->weight[k] =
+        taps.moment[0][k] + taps.moment[1][k] * (float)first + taps.moment[2][k] * (float)second;
   return true;
 }
 
@@ -157,8 +156,8 @@ static bool weigh_rows(const struct cut_tree *tree, const struct view *view,
     struct weights weights;
     if (!weigh(sees, &interval[j], &out->row_slope[j], &weights)) return false;
     if (out->rows + weights.count > ROWS) return false;
-    out->row_count[j] = weights.count;
     const size_t from = stride * (size_t)(j * sees->axis->far_count + weights.first);
+    out->row_count[j] = weights.count;
     for (int l = 0; l < weights.count; ++l) {
       out->row[out->rows] = from + stride * (size_t)l;
       out->row_weight[out->rows++] = weights.weight[l];
@@ -168,17 +167,15 @@ static bool weigh_rows(const struct cut_tree *tree, const struct view *view,
 }
 
 /* `count` rows of one view along v: a constant where it matters. */
-SIMD_INLINE simd_float8 sum_rows(const struct cut_views *views, const float *rgb, int first,
-                                 int count) {
-  simd_float8 sum = {0};
+SIMD_INLINE void sum_rows(const struct cut_views *views, const float *rgb, int first, int count,
+                          simd_float8 *sum) {
   for (int k = 0; k < views->pairs; ++k) {
     simd_float8 here = {0};
     for (int l = 0; l < count; ++l)
       here += SIMD_LOAD(simd_floats8, rgb + views->row[first + l] + views->offset[k]) *
               views->row_weight[first + l];
-    sum += here * (views->weight[k] * views->kernel[k]);
+    *sum += here * (views->weight[k] * views->kernel[k]);
   }
-  return sum;
 }
 
 SIMD_INLINE void sum_views_body(struct cut_views *views, int count, const float *rgb,
@@ -192,16 +189,10 @@ SIMD_INLINE void sum_views_body(struct cut_views *views, int count, const float 
       value = (x * n[0] + rest) / (value * value);
       memcpy(views->kernel + k, &value, sizeof value);
     }
-    switch (views->row_count[j]) {
-    case 2:
-      sum += sum_rows(views, rgb, row, 2);
-      break;
-    case 3:
-      sum += sum_rows(views, rgb, row, 3);
-      break;
-    default:
-      sum += sum_rows(views, rgb, row, views->row_count[j]);
-    }
+    if (views->row_count[j] == 2)
+      sum_rows(views, rgb, row, 2, &sum);
+    else
+      sum_rows(views, rgb, row, views->row_count[j], &sum);
   }
   for (int c = 0; c < 3; ++c) light[c] = sum[c] + sum[3 + c];
 }
@@ -232,15 +223,14 @@ bool cut_views_sum(const struct cut_tree *tree, const struct view *view, struct 
 /* ---- What it costs and how exact it is ---- */
 
 /* What the kernel's slope leaves out, in units of its change over a view and over the aperture. */
-static const double view_order = 0.05, aperture_order = 0.05, rounding = 3e-6;
+static const double view_order = 0.5, aperture_order = 0.15, rounding = 3e-6;
 
-double cut_views_error(const struct cut_tree *tree, const struct view *view) {
+double cut_views_error(const struct view *view) {
   const struct light_axis *axes = view->page->axes;
   const double *n = view->kernel.normal;
   double middle[2], error = rounding;
   if (axes[0].near_count > MOST || axes[1].near_count > MOST || !(view->height > 0))
     return INFINITY;
-  (void)tree;
   find_middle(view, middle);
   const double square = 1 + middle[0] * middle[0] + middle[1] * middle[1];
   const double tilt =
@@ -254,9 +244,9 @@ double cut_views_error(const struct cut_tree *tree, const struct view *view) {
   return error;
 }
 
-double cut_views_price(const struct cut_tree *tree, const struct view *view) {
-  static const double fixed = 100, view_price = 10, pair_price = 0.6;
-  const struct light_axis *axes = tree->page->axes;
+double cut_views_price(const struct view *view) {
+  static const double fixed = 200, view_price = 20, pair_price = 1.2;
+  const struct light_axis *axes = view->page->axes;
   double samples = 1, views = 0;
   for (int axis = 0; axis < 2; ++axis) {
     const double wide = fabs(axes[axis].kappa * view->height - 1) / view->height *

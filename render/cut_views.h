@@ -12,10 +12,10 @@
 #include "view.h"
 
 /* Predicted relative error; INFINITY where this cannot be done. */
-double cut_views_error(const struct cut_tree *tree, const struct view *view);
+double cut_views_error(const struct view *view);
 
 /* What it takes, in nanoseconds; only relative to other such prices. */
-double cut_views_price(const struct cut_tree *tree, const struct view *view);
+double cut_views_price(const struct view *view);
 
 /* Scratch memory of one thread. */
 struct cut_views;

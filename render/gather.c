@@ -406,7 +406,8 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
   }
   gather->counts.receivers += (uint64_t)count;
   gather->counts.microlights = gather->cell_counts.microlights;
-  gather->counts.nodes = gather->cell_counts.nodes + gather->cut_counts.nodes + gather->cut_counts.views;
+  gather->counts.nodes =
+      gather->cell_counts.nodes + gather->cut_counts.nodes + gather->cut_counts.views;
   gather->counts.black = gather->cell_counts.black;
   gather->counts.shadow_rays = gather->visible.shadow_rays;
   return result;

@@ -216,7 +216,7 @@ static void test_tolerance_st_plane(void **state) {
  * tolerance: the cut may take its time.) */
 static void test_work(void **state) {
   (void)state;
-  static const double most[][SCENES] = {{32, 1.1, 1.01}, {32, 6, 3}};
+  static const double most[][SCENES] = {{40, 1.1, 1.01}, {40, 6, 3}};
   struct receiver receivers[COUNT];
   for (int lamp = SMOOTH; lamp <= PEAKS; ++lamp) {
     struct lit lit;
