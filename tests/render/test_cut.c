@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "cut.h"
+#include "cut_views.h"
 #include "gather.h"
 #include "vector.h"
 
@@ -314,6 +315,40 @@ static void test_threads(void **state) {
   assert_memory_equal(all[0], all[1], sizeof all[0]);
 }
 
+/* All views at once, wherever they are done: as exact as is predicted, relative as cut.h says. */
+static void test_views(void **state) {
+  (void)state;
+  struct receiver receivers[COUNT];
+  struct gathered exact[COUNT];
+  struct cut_views *views = cut_views_make();
+  static const double facing[3] = {0, 0, -1};
+  for (int k = 0; k < 2; ++k) {
+    struct lit lit;
+    int done = 0;
+    double most = 0;
+    make(&lit, PEAKS, ordinary, k ? 3 : INFINITY, 2);
+    make_receivers(receivers, COUNT, 2, 100, k ? 3 : INFINITY);
+    for (int r = 0; r < COUNT; ++r) memcpy(receivers[r].normal, facing, sizeof facing);
+    sum(&lit, GATHER_REFERENCE, 1e-7, receivers, COUNT, exact);
+    for (int r = 0; r < COUNT; ++r)
+      most = fmax(most, largest(exact[r].irradiance) * pow(receivers[r].position[2], 2));
+    for (int r = 0; r < COUNT; ++r) {
+      struct view view;
+      double rgb[3];
+      assert_true(view_find(&lit.page, &receivers[r], &view));
+      const double error = cut_views_error(&view);
+      if (error > 1e-2 || !cut_views_sum(lit.aids.trees[0], &view, views, rgb)) continue;
+      ++done;
+      double light = fmax(largest(exact[r].irradiance), 1e-4 * most / pow(view.height, 2));
+      for (int c = 0; c < 3; ++c)
+        assert_true(fabs(rgb[c] - exact[r].irradiance[c]) <= error * light);
+    }
+    assert_true(done > COUNT / 2);
+    release(&lit);
+  }
+  cut_views_free(views);
+}
+
 /* As cut.h states. */
 static void test_memory(void **state) {
   (void)state;
@@ -353,8 +388,8 @@ int main(void) {
       cmocka_unit_test(test_tolerance), cmocka_unit_test(test_tolerance_st_plane),
       cmocka_unit_test(test_work),      cmocka_unit_test(test_hand_over),
       cmocka_unit_test(test_sizes),     cmocka_unit_test(test_linear),
-      cmocka_unit_test(test_threads),   cmocka_unit_test(test_memory),
-      cmocka_unit_test(test_refuses),
+      cmocka_unit_test(test_threads),   cmocka_unit_test(test_views),
+      cmocka_unit_test(test_memory),    cmocka_unit_test(test_refuses),
   };
   return cmocka_run_group_tests_name("cut", tests, NULL, NULL);
 }
