@@ -154,7 +154,8 @@ torch.tif: CANNED_BAKE_FLAGS += --st 8x4'
   lamp_make
   cp broken.tif old.tif
   echo 'sphere { }' >>broken.pov
-  for again in 1 2; do
+  for again in once twice; do
+    echo "$again"
     run lamp_make
     [ "$status" -eq 2 ]
     cmp broken.tif old.tif
