@@ -57,19 +57,22 @@ PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc) libc6-dev make pkg-c
   libembree-dev libassimp-dev libpng-dev
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
+PACKAGES_lamps := povray povray-includes jq
 PACKAGES_man  := help2man scdoc
-PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_man) libcmocka-dev libgmp-dev bats povray-examples libtiff-tools groff
+PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_lamps) $(PACKAGES_man) libcmocka-dev libgmp-dev bats \
+  povray-examples libtiff-tools groff chromium
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
 PACKAGES := $(sort $(PACKAGES_build) \
   $(call goals_need,demo bench figures tradeoff,$(PACKAGES_demo)) \
   $(call goals_need,tradeoff,$(PACKAGES_plot)) \
+  $(call goals_need,lamps,$(PACKAGES_lamps)) \
   $(call goals_need,setup test sanitize,$(PACKAGES_test)) \
   $(call goals_need,man install,$(PACKAGES_man)) \
   $(call goals_need,lint,$(PACKAGES_lint)))
 
 # Compiling waits for it where the goal is one that sets up by itself.
-SETUP_FIRST := $(call goals_need,setup demo figures tradeoff test bench lint sanitize man install,setup)
+SETUP_FIRST := $(call goals_need,setup demo lamps figures tradeoff test bench lint sanitize man install,setup)
 
 all: $(BIN) ## build the programs (the default)
 	@:
@@ -103,7 +106,7 @@ ifneq ($(SETUP),no)
 	      </dev/null >$$log 2>&1 || { tail -n 20 $$log; echo "make setup: apt could not install$$missing" >&2; exit 1; }; \
 	  fi; \
 	elif ! pkg-config --exists $(PACKAGES_USED) $(RENDER_USED) 2>/dev/null; then \
-	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, Embree 3, assimp, libpng, POV-Ray 3.7 and oiiotool (tests: cmocka, GMP, bats, gnuplot, help2man, scdoc) by other means' >&2; exit 1; \
+	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, Embree 3, assimp, libpng, POV-Ray 3.7 and oiiotool (make lamps: jq; tests: cmocka, GMP, bats, gnuplot, help2man, scdoc, tiffcp, groff, chromium) by other means' >&2; exit 1; \
 	fi
 endif
 
