@@ -1,33 +1,30 @@
 /* bake.c - see bake.h. */
 #include "bake.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bake_run.h"
-#include "bake_sum.h"
-#include "effects.h"
+#include "bake_provenance.h"
+#include "bake_rounds.h"
 #include "files.h"
 #include "housing.h"
 #include "lamp_depend.h"
-#include "slab_cli.h"
+#include "probe_resolution.h"
+#include "probe_window.h"
+#include "slab_floor.h"
 #include "slab_json.h"
-
-/* Passes everywhere before tiles are told apart: with fewer, a pilot misses light. */
-enum { PILOT = 4 };
+#include "slab_profile.h"
 
 struct bake_state {
   struct povray povray;
   struct lamp_source source;
   struct lamp lamp;
   struct bake_store store;
-  struct bake_tiles tiles;
-  struct bake_round pilot, rest;
-  struct bake_sum *sum;
+  struct bake_rounds rounds;
   struct effects effects;
+  struct bake_origin origin;
 };
 
 /* A power of two that keeps the picture well inside half float's range. The probe
@@ -61,8 +58,9 @@ static enum slab_result choose_form(const struct bake_options *options, const st
                        "order; use --camera perspective");
     return SLAB_OK;
   }
-  double positions = (double)options->uv[0] * options->uv[1],
-         directions = (double)options->st[0] * options->st[1];
+  const int *samples = lamp->slabs[0].samples;
+  double positions = (double)samples[SLAB_U] * samples[SLAB_V],
+         directions = (double)samples[SLAB_S] * samples[SLAB_T];
   if (infinite && (positions > 4096 * directions))
     *form = BAKE_TRANSPOSED;
   else
@@ -70,68 +68,7 @@ static enum slab_result choose_form(const struct bake_options *options, const st
   return SLAB_OK;
 }
 
-static bool is_adaptive(const struct bake_options *options) {
-  return !options->uniform && options->rays > PILOT;
-}
-
-/* Renders and sums. A shard needs the whole pilot's sums to plan by, but renders only its
- * own part of the round after that. */
-static enum slab_result do_rounds(const struct bake_work *work, struct bake_state *state,
-                                  struct bake_report *report, struct slab_error *error) {
-  const struct bake_options *options = work->options;
-  bool adaptive = is_adaptive(options);
-  int passes = adaptive ? PILOT : options->rays;
-  int tiles = bake_tile_count(&state->tiles);
-  enum slab_result result =
-      bake_sum_new(&state->tiles, adaptive ? options->rays_max : passes, &state->sum, error);
-  if (!result)
-    result = bake_plan_pilot(&state->tiles, passes, work->look.form, &state->pilot, error);
-  bool shard = options->shards > 1;
-  if (!result)
-    result = bake_run(work, &state->pilot, adaptive || !shard ? state->sum : NULL,
-                      adaptive ? "pilot" : "bake", report, error);
-  if (result || !adaptive) return result;
-  double *deviation = malloc((size_t)tiles * sizeof *deviation);
-  int *wanted = malloc((size_t)tiles * sizeof *wanted);
-  if (!deviation || !wanted) result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  if (!result) result = bake_sum_deviation(state->sum, deviation, error);
-  if (!result)
-    result = bake_plan_allocate(&state->tiles, deviation, PILOT, options->rays, options->rays_max,
-                                wanted, error);
-  if (!result)
-    result = bake_plan_rest(&state->tiles, wanted, PILOT, work->look.form, &state->rest, error);
-  free(deviation);
-  free(wanted);
-  if (!result)
-    result = bake_run(work, &state->rest, shard ? NULL : state->sum, "bake", report, error);
-  return result;
-}
-
 /* ---- The slab ---- */
-
-static json_t *effects_json(const struct effects *effects, bool own_radiosity) {
-  json_t *object = json_object();
-  for (const char *at = effects_all; *(at += strspn(at, " "));) {
-    char word[32];
-    snprintf(word, sizeof word, "%.*s", (int)strcspn(at, " "), at);
-    json_object_set_new(object, word, json_string(effects_has(effects, word) ? "on" : "off"));
-    at += strlen(word);
-  }
-  if (own_radiosity) json_object_set_new(object, "interreflection", json_string("by the script"));
-  return object;
-}
-
-/* File names on the command line may be no UTF-8, which JSON has to be. */
-static json_t *command_json(const char *command) {
-  json_t *text = json_string(command);
-  if (text) return text;
-  char *plain = strdup(command);
-  for (char *c = plain; c && *c; ++c)
-    if (*c < 0) *c = '?';
-  text = json_string(plain ? plain : "");
-  free(plain);
-  return text;
-}
 
 /* The lamp's visible housing as SDL, where the script declares one that stands alone. */
 static char *find_housing(const struct bake_work *work, struct bake_report *report) {
@@ -149,23 +86,28 @@ static char *find_housing(const struct bake_work *work, struct bake_report *repo
   return housing;
 }
 
-static char *provenance_text(const struct bake_work *work, const struct bake_noise *noise,
-                             const char *housing) {
-  static const char *const forms[] = {"mesh", "perspective", "transposed"};
-  json_t *object = json_pack(
-      "{s:o, s:s, s:s, s:o, s:s, s:f, s:f}", "command", command_json(work->options->command),
-      "tool", "bakeslab " CANNED_VERSION, "renderer", work->povray->version, "effects",
-      effects_json(work->look.effects, work->lamp->own_radiosity), "camera", forms[work->look.form],
-      "gain", work->look.gain, "rays", noise->rays);
-  if (noise->known)
-    json_object_set_new(object, "noise",
-                        json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean",
-                                  noise->mean != 0 ? noise->sample / noise->mean : 0, "flux",
-                                  noise->flux));
-  if (housing) json_object_set_new(object, "housing", json_string(housing));
-  char *text = json_dumps(object, JSON_COMPACT);
-  json_decref(object);
-  return text;
+/* What the samples say of the slab: where it cuts light off, and its own error at the
+ * distances of a tolerance. */
+static enum slab_result judge(const struct bake_work *work, const struct bake_state *state,
+                              struct bake_report *report, struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
+    const struct slab *page = &state->lamp.slabs[n];
+    struct slab_profile profile;
+    struct slab_floor floor = {0};
+    result = slab_profile(page, &profile, error);
+    for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && !result; ++k) {
+      size_t used = strlen(report->cut_off);
+      if (slab_profile_cut_off(&profile, k / 2, k % 2) > 0)
+        snprintf(report->cut_off + used, sizeof report->cut_off - used, "%spage %d %s %c",
+                 used ? ", " : "", n + 1, k % 2 ? "high" : "low", "uvst"[k / 2]);
+    }
+    slab_profile_free(&profile);
+    if (!result && work->options->tolerance > 0)
+      result = slab_floor_estimate(page, 1, &state->origin.resolution.distance, &floor, error);
+    if (!(floor.all <= report->error)) report->error = floor.all;
+  }
+  return result;
 }
 
 static enum slab_result write_slab(const struct bake_work *work, struct bake_state *state,
@@ -173,12 +115,10 @@ static enum slab_result write_slab(const struct bake_work *work, struct bake_sta
   const struct bake_options *options = work->options;
   struct slab *pages = state->lamp.slabs;
   int count = state->lamp.slab_count;
-  struct bake_noise noise;
-  bake_sum_noise(state->sum, work->look.gain, &noise);
-  enum slab_result result = bake_sum_finish(state->sum, work->look.gain, pages, error);
-  char *housing = result ? NULL : find_housing(work, report);
-  char *text = provenance_text(work, &noise, housing);
-  free(housing);
+  bake_sum_noise(state->rounds.sum, work->look.gain, &state->origin.noise);
+  enum slab_result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
+  state->origin.housing = result ? NULL : find_housing(work, report);
+  char *text = bake_provenance(work, &state->origin);
   if (!result && !text) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int n = 0; n < count && !result; ++n) {
     result = slab_json_set(&pages[n], "provenance", text, error);
@@ -187,43 +127,76 @@ static enum slab_result write_slab(const struct bake_work *work, struct bake_sta
                              options->centre ? "\"points\"" : "\"cell_means\"", error);
   }
   free(text);
+  if (!result) result = judge(work, state, report, error);
   return result ? result
                 : slab_file_write(options->output, pages, count, options->precision, error);
 }
 
-static enum slab_result probe_once(const struct bake_work *work, struct bake_state *state,
-                                   const char *effects, struct slab_error *error) {
+/* ---- What is to be baked ---- */
+
+/* Reads the lamp with these effects, or those of its Canned_Needs (NULL), and with it all
+ * that cameras need to know. */
+static enum slab_result read_lamp(struct bake_work *work, struct bake_state *state,
+                                  const struct effects *effects, struct slab_error *error) {
+  const struct bake_options *options = work->options;
   char *scratch;
+  lamp_free(&state->lamp);
   enum slab_result result = bake_store_scratch(&state->store, &scratch, error);
   if (!result)
     result = lamp_probe(&state->povray, &state->source, scratch, effects, work->stop, &state->lamp,
                         error);
   free(scratch);
-  return result;
-}
-
-/* Which effects are on: the user's word, else the lamp author's, else all. What a script
- * reads may depend on them, so a probe that finds some called for is made again with these. */
-static enum slab_result probe_lamp(const struct bake_work *work, struct bake_state *state,
-                                   struct slab_error *error) {
-  const struct bake_options *options = work->options;
-  bool automatic = !strcmp(options->effects, "auto");
-  enum slab_result result = SLAB_OK;
-  if (!automatic) result = effects_parse(options->effects, "--effects", &state->effects, error);
-  if (!result) result = probe_once(work, state, automatic ? NULL : state->effects.words, error);
-  if (!result && automatic)
-    result = effects_parse(state->lamp.needs_declared ? state->lamp.needs : "all", "Canned_Needs",
-                           &state->effects, error);
-  if (!result && automatic && state->effects.words[0]) {
-    lamp_free(&state->lamp);
-    result = probe_once(work, state, state->effects.words, error);
-  }
   for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
     int *samples = state->lamp.slabs[n].samples;
     memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]},
            SLAB_AXES * sizeof *samples);
     result = slab_check(&state->lamp.slabs[n], error);
   }
+  if (!result) result = choose_form(options, &state->lamp, &work->look.form, error);
+  if (result) return result;
+  work->slabs = state->lamp.slabs;
+  work->look.defect_rows = state->lamp.defect_rows;
+  work->look.gain = choose_gain(options, state->lamp.peak);
+  return SLAB_OK;
+}
+
+/* Which effects are on: the user's word, else the lamp author's, else those that are found to
+ * matter. What a script reads may depend on them, so it is read again once they are known. */
+static enum slab_result find_effects(struct bake_work *work, struct bake_state *state,
+                                     struct bake_report *report, struct slab_error *error) {
+  const char *word = work->options->effects;
+  bool automatic = !strcmp(word, "auto"), probe = !strcmp(word, "probe");
+  enum slab_result result = SLAB_OK;
+  if (automatic) result = read_lamp(work, state, NULL, error);
+  if (!result && automatic && state->lamp.needs_declared)
+    result = effects_parse(state->lamp.needs, "Canned_Needs", &state->effects, error);
+  else if (!result && !automatic && !probe)
+    result = effects_parse(word, "--effects", &state->effects, error);
+  else if (!result) {
+    struct effects all;
+    state->origin.probed = true;
+    result = effects_parse("all", "--effects", &all, error);
+    if (!result) result = read_lamp(work, state, &all, error);
+    if (!result) result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
+  }
+  return result ? result : read_lamp(work, state, &state->effects, error);
+}
+
+static enum slab_result prepare(struct bake_work *work, struct bake_state *state,
+                                struct bake_report *report, struct slab_error *error) {
+  const struct bake_options *options = work->options;
+  enum slab_result result = find_effects(work, state, report, error);
+  if (!result && options->depend)
+    result = lamp_depend_check(&state->lamp.reads, state->source.path, options->output,
+                               options->depend, error);
+  if (!result && options->window_auto)
+    result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
+  if (!result && options->tolerance > 0)
+    result = probe_resolution(work, state->lamp.slabs, &state->origin.resolution, report, error);
+  if (!result) result = choose_form(options, &state->lamp, &work->look.form, error);
+  work->look.offsets = options->centre             ? BAKE_CENTRE
+                       : bake_is_adaptive(options) ? BAKE_OWN
+                                                   : BAKE_SHARED;
   return result;
 }
 
@@ -236,29 +209,14 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
                            .source = &state.source,
                            .lamp = &state.lamp,
                            .store = &state.store,
+                           .look.effects = &state.effects,
                            .stop = stop};
   enum slab_result result = slab_file_check_target(options->output, options->precision, error);
   if (!result) result = povray_find(options->povray, &state.povray, error);
   if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
   if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
-  if (!result) result = probe_lamp(&work, &state, error);
-  if (!result && options->depend)
-    result = lamp_depend_check(&state.lamp.reads, state.source.path, options->output,
-                               options->depend, error);
-  if (!result) result = choose_form(options, &state.lamp, &work.look.form, error);
-  if (!result)
-    result = bake_tiles_init(&state.tiles, state.lamp.slabs, state.lamp.slab_count,
-                             work.look.form == BAKE_TRANSPOSED, error);
-  if (!result) {
-    work.slabs = state.lamp.slabs;
-    work.look.defect_rows = state.lamp.defect_rows;
-    work.look.offsets = options->centre        ? BAKE_CENTRE
-                        : is_adaptive(options) ? BAKE_OWN
-                                               : BAKE_SHARED;
-    work.look.gain = choose_gain(options, state.lamp.peak);
-    work.look.effects = &state.effects;
-    result = do_rounds(&work, &state, report, error);
-  }
+  if (!result) result = prepare(&work, &state, report, error);
+  if (!result) result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   /* A shard leaves the slab to the run without --shard. */
   report->assembled = options->shards == 1;
   /* Before the slab: with an old rule, make would take the new slab for up to date. */
@@ -267,10 +225,8 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
                                options->depend, error);
   if (!result && report->assembled) result = write_slab(&work, &state, report, error);
   bake_store_close(&state.store, !result && report->assembled);
-  bake_sum_free(state.sum);
-  bake_round_free(&state.pilot);
-  bake_round_free(&state.rest);
-  bake_tiles_free(&state.tiles);
+  bake_rounds_free(&state.rounds);
+  free(state.origin.housing);
   lamp_free(&state.lamp);
   lamp_source_free(&state.source);
   return result;

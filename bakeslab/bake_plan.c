@@ -133,12 +133,29 @@ static bool add_unit(struct bake_round *round, int box, int pass) {
   return true;
 }
 
-/* All passes from `from` to before `to` of the boxes from `box` on, pairs together. */
-static bool add_passes(struct bake_round *round, size_t box, int from, int to) {
+/* The stride by which to visit `count` things, each once, so that any run of visits is spread
+ * over all of them: near the golden section, and without a common factor. */
+static size_t spreading_stride(size_t count) {
+  size_t stride = (size_t)(0.6180339887498949 * (double)count);
+  for (;; ++stride) {
+    size_t a = count, b = stride;
+    while (b) {
+      size_t rest = a % b;
+      a = b, b = rest;
+    }
+    if (a == 1) return stride;
+  }
+}
+
+/* All passes from `from` to before `to` of the boxes from `box` on, pairs together. Batches
+ * gather interreflected light each for itself, one a little brighter than another: `spread`,
+ * neighbouring boxes are in different ones, and no seam runs through the slab. */
+static bool add_passes(struct bake_round *round, size_t box, int from, int to, bool spread) {
+  size_t count = round->box_count - box, stride = spread && count ? spreading_stride(count) : 1;
   for (int pair = from; pair < to; pair += 2)
-    for (size_t n = box; n < round->box_count; ++n)
+    for (size_t n = 0, at = 0; n < count; ++n, at = (at + stride) % count)
       for (int pass = pair; pass < pair + 2 && pass < to; ++pass)
-        if (!add_unit(round, (int)n, pass)) return false;
+        if (!add_unit(round, (int)(box + at), pass)) return false;
   return true;
 }
 
@@ -211,7 +228,7 @@ static bool add_whole_boxes(const struct bake_tiles *tiles, int most, struct bak
 enum slab_result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
                                  struct bake_round *round, struct slab_error *error) {
   *round = (struct bake_round){0};
-  if (!add_whole_boxes(tiles, longest_side(form), round) || !add_passes(round, 0, 0, passes))
+  if (!add_whole_boxes(tiles, longest_side(form), round) || !add_passes(round, 0, 0, passes, true))
     return slab_fail(error, SLAB_MEMORY, "out of memory");
   return cut_batches(round, form, error);
 }
@@ -288,7 +305,7 @@ enum slab_result bake_plan_rest(const struct bake_tiles *tiles, const int *wante
     size_t box = round->box_count;
     int to = 2 * passes < most ? 2 * passes : most;
     if (!add_stage(tiles, wanted, passes, longest_side(form), round) ||
-        !add_passes(round, box, passes, to))
+        !add_passes(round, box, passes, to, form == BAKE_MESH))
       return slab_fail(error, SLAB_MEMORY, "out of memory");
   }
   return cut_batches(round, form, error);

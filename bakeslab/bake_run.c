@@ -2,6 +2,7 @@
 #include "bake_run.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,7 @@ struct run {
   size_t *order;        /* batches to render, in this order */
   size_t count, next;
   size_t rays_done, rays_all;
+  double traced;
   struct progress progress;
 };
 
@@ -131,12 +133,21 @@ static enum slab_result explain_full_disk(const struct bake_store *store, enum s
                    store->directory, error->text);
 }
 
+/* Rays of all kinds that POV-Ray traced for a batch. */
+static double count_traced(const char *directory) {
+  static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
+  double sum = 0;
+  for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)
+    sum += fmax(0, povray_statistic(directory, labels[n]));
+  return sum;
+}
+
 /* Photons that miss their targets are silent in POV-Ray, and lose the light. */
 static enum slab_result check_photons(const struct run *run, const struct process *process,
                                       struct slab_error *error) {
   enum { TOO_FEW = 1000 };
   const struct effects *effects = run->work->look.effects;
-  if (!effects_has(effects, "caustics")) return SLAB_OK;
+  if (!effects->level[CAUSTICS]) return SLAB_OK;
   double shot = povray_statistic(process->scratch, "Number of photons shot:");
   double stored = povray_statistic(process->scratch, "Surface photons stored:");
   if (shot >= TOO_FEW && stored > 0) return SLAB_OK;
@@ -159,6 +170,7 @@ static enum slab_result end_batch(struct run *run, struct process *process, int 
   if (!result) result = check_photons(run, process, error);
   if (result == SLAB_BAD) slab_fail(error, result, "%s: %s", work->options->lamp, error->text);
   if (!result) result = lamp_reads_unchanged(&work->lamp->reads, error);
+  if (!result) run->traced += count_traced(process->scratch);
   if (!result) result = bake_store_commit(work->store, process->scratch, process->key, error);
   if (result) result = explain_full_disk(work->store, result, error);
   release(process, result != SLAB_OK);
@@ -179,11 +191,12 @@ static void kill_all(struct run *run) {
 
 static bool is_verified(struct run *run, size_t batch, const char *key) {
   if (!bake_store_has(run->work->store, key)) return false;
-  if (read_batch(run, batch, NULL) == SLAB_OK) return true;
+  bool whole = read_batch(run, batch, NULL) == SLAB_OK;
   char *path = bake_store_path(run->work->store, key);
-  if (path) files_remove_tree(path); /* damaged: bake it again */
+  if (path && whole) run->traced += count_traced(path);
+  if (path && !whole) files_remove_tree(path); /* damaged: bake it again */
   free(path);
-  return false;
+  return whole;
 }
 
 /* Moves `next` to a batch that the store lacks. */
@@ -302,6 +315,7 @@ enum slab_result bake_run(const struct bake_work *work, const struct bake_round 
   if (!result) result = loop(&run, label, report, error);
   if (run.processes) kill_all(&run);
   progress_end(&run.progress);
+  report->traced += run.traced;
   free(run.processes);
   free(run.order);
   free(run.ready);

@@ -74,12 +74,11 @@ static void print_filter(FILE *out, double gain, const struct slab *slab) {
 
 static void print_head(FILE *out, const struct bake_look *look, const struct slab *slabs, int pages,
                        const struct povray_job *job) {
-  fprintf(out,
-          "// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version "
-          "3.7;\n#declare Canned_Bake_Effects = \"%s\";\n",
-          look->effects->words);
+  fputs("// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version 3.7;\n",
+        out);
+  effects_declare(look->effects, out);
   /* A finer pretrace than every 16th pixel costs much and gains 0.01 %. */
-  if (effects_has(look->effects, "interreflection"))
+  if (look->effects->level[INTERREFLECTION])
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
             job->height > job->width ? job->height : job->width);
   fputs("#include \"canned_bake.inc\"\n#include \"" LAMP_SCRIPT "\"\n", out);

@@ -1,4 +1,5 @@
 /* cmd_bake.c - bakeslab bake: a lamp script becomes a light slab. */
+#include <float.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -24,6 +25,10 @@ enum {
   OPTION_CENTRE,
   OPTION_UNIFORM,
   OPTION_EFFECTS,
+  OPTION_THRESHOLD,
+  OPTION_WINDOW,
+  OPTION_TOLERANCE,
+  OPTION_DISTANCE,
   OPTION_SHARD,
   OPTION_PRECISION,
   OPTION_GAIN,
@@ -47,9 +52,23 @@ static const struct argp_option options[] = {
      "one ray through each sample's centre, the plain algorithm: fast, but fine parts of a lamp "
      "alias",
      2},
-    {"effects", OPTION_EFFECTS, "auto|all|none|LIST", 0,
+    {"effects", OPTION_EFFECTS, "auto|probe|all|none|LIST", 0,
      "interreflection, caustics, extended_source, deep_trace (default auto: what the lamp's "
-     "Canned_Needs says, else all)",
+     "Canned_Needs says, else probe: those that small bakes show to matter)",
+     3},
+    {"effect-threshold", OPTION_THRESHOLD, "X", 0,
+     "an effect matters if it changes the flux by more than this part of it, or samples by "
+     "twice that in RMS (default 0.01)",
+     3},
+    {"window", OPTION_WINDOW, "declared|auto", 0,
+     "auto: the st windows are fitted to the light, within what the script declares", 3},
+    {"tolerance", OPTION_TOLERANCE, "T", 0,
+     "find the fewest samples by which irradiance is right to T (relative RMS), at "
+     "--for-distance and beyond; an explicit --uv or --st stays",
+     3},
+    {"for-distance", OPTION_DISTANCE, "D", 0,
+     "of the nearest thing that is lit, in lamp units (default 4 apertures, --tolerance 0.01): "
+     "the st plane is put there where that needs fewer samples",
      3},
     {"gain", OPTION_GAIN, "2^N", 0,
      "brightness at which POV-Ray renders, undone in the slab; its pictures hold radiance up "
@@ -90,6 +109,7 @@ static const char doc[] =
     "  bakeslab bake parabolic.pov -o parabolic.tif\n"
     "  bakeslab bake lamp.pov -o draft.tif --uv 8 --st 32 --rays 4 --effects none\n"
     "  bakeslab bake lamp.pov -o fine.tif --st 128 --rays 64 --jobs 8\n"
+    "  bakeslab bake lamp.pov -o lamp.tif --effects probe --window auto --tolerance 0.02\n"
     "  for k in 1 2 3 4; do bakeslab bake lamp.pov -o big.tif --shard $k/4 & done\n"
     "  wait; bakeslab bake lamp.pov -o big.tif\n";
 
@@ -142,6 +162,39 @@ static double parse_gain(struct argp_state *state, const char *text) {
   return gain;
 }
 
+static double parse_positive(struct argp_state *state, const char *option, const char *text) {
+  char *end;
+  double value = strtod(text, &end);
+  if (end == text || *end || !(value > 0 && value <= DBL_MAX))
+    argp_error(state, "%s %s: not a number above 0", option, text);
+  return value;
+}
+
+/* Options that leave the choice to small bakes. */
+static error_t parse_choices(int key, char *text, struct argp_state *state,
+                             struct bake_options *bake) {
+  static const char *const windows[] = {"declared", "auto", NULL};
+  switch (key) {
+  case OPTION_EFFECTS:
+    bake->effects = text;
+    return 0;
+  case OPTION_THRESHOLD:
+    bake->effect_threshold = parse_positive(state, "--effect-threshold", text);
+    return 0;
+  case OPTION_WINDOW:
+    bake->window_auto = parse_word(state, "--window", text, windows) == 1;
+    return 0;
+  case OPTION_TOLERANCE:
+    bake->tolerance = parse_positive(state, "--tolerance", text);
+    return 0;
+  case OPTION_DISTANCE:
+    bake->for_distance = parse_positive(state, "--for-distance", text);
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
 /* Options that say what to bake. */
 static error_t parse_samples(int key, char *text, struct argp_state *state,
                              struct bake_options *bake) {
@@ -167,9 +220,6 @@ static error_t parse_samples(int key, char *text, struct argp_state *state,
     return 0;
   case OPTION_CENTRE:
     bake->centre = true;
-    return 0;
-  case OPTION_EFFECTS:
-    bake->effects = text;
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;
@@ -224,7 +274,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (!bake->output) argp_error(state, "give -o SLAB");
     return 0;
   default:
-    return parse_samples(key, text, state, bake) == 0 ? 0 : parse_means(key, text, state, bake);
+    if (parse_samples(key, text, state, bake) == 0 || parse_choices(key, text, state, bake) == 0)
+      return 0;
+    return parse_means(key, text, state, bake);
   }
 }
 
@@ -249,12 +301,31 @@ static bool check_rays(struct bake_options *bake) {
   return true;
 }
 
+/* A tolerance finds what neither --uv nor --st fixes. */
+static void set_sizes(struct bake_options *bake) {
+  if (bake->for_distance > 0 && bake->tolerance == 0) bake->tolerance = 0.01;
+  bake->uv_free = bake->uv[0] == 0;
+  bake->st_free = bake->st[0] == 0;
+  for (int k = 0; k < 2; ++k) {
+    if (bake->uv_free) bake->uv[k] = 16;
+    if (bake->st_free) bake->st[k] = 64;
+  }
+}
+
 static void report_done(const struct bake_options *bake, const struct bake_report *report) {
   if (report->housing_left_out)
     cli_complain("%s: note: Canned_Housing is left out of the slab, since it does not parse with "
                  "only the numbers declared before it; write it without includes and macros",
                  bake->lamp);
+  if (report->cut_off[0])
+    cli_note("%s: note: light goes on beyond the st window (%s); enlarge it in Canned_Slab",
+             bake->lamp, report->cut_off);
+  if (report->assembled && bake->tolerance > 0)
+    cli_note("%s: note: the slab's own error is about %.2g (tolerance %g)", bake->output,
+             report->error, bake->tolerance);
   if (bake->quiet) return;
+  if (report->probe_cpu > 0)
+    fprintf(stderr, "%s: small bakes before it took %.1f CPU s\n", bake->output, report->probe_cpu);
   if (report->assembled)
     fprintf(stderr, "%s: %d batches, %d of them found finished; %.3g rays, %.1f CPU s of POV-Ray\n",
             bake->output, report->batches, report->found, report->rays, report->cpu);
@@ -266,9 +337,8 @@ static void report_done(const struct bake_options *bake, const struct bake_repor
 int cmd_bake(int argc, char **argv) {
   long processors = sysconf(_SC_NPROCESSORS_ONLN);
   struct arguments arguments = {.bake = {.povray = "povray",
-                                         .uv = {16, 16},
-                                         .st = {64, 64},
                                          .effects = "auto",
+                                         .effect_threshold = 0.01,
                                          .form = -1,
                                          .jobs = processors > 0 ? (int)processors : 1,
                                          .shards = 1,
@@ -279,6 +349,7 @@ int cmd_bake(int argc, char **argv) {
   bake_options->libraries = arguments.libraries;
   bake_options->quiet = cli_quiet();
   if (!check_rays(bake_options)) return CLI_USAGE;
+  set_sizes(bake_options);
   struct sigaction action = {.sa_handler = on_signal};
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);

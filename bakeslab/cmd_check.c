@@ -1,22 +1,13 @@
 /* cmd_check.c - bakeslab check: reads all of a slab, and looks whether its
- * light goes on beyond what was sampled.
- *
- * The profile of an axis is the mean of |L| over all other axes, for each
- * sample of the axis. Where light fades out before the border of the st
- * window, the profile's ends are dark; an end brighter than 2 % of the
- * profile's peak is reported as cut off. The uv rectangle usually ends where
- * the lamp's opening does, so only an end brighter than 50 % is reported:
- * then the opening fills the rectangle, and may well go on beyond it. --error tells the slab's
- * own error (slab_floor.h). */
+ * light goes on beyond what was sampled (slab_profile.h). --error tells the slab's own error
+ * (slab_floor.h). */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "cli.h"
 #include "slab_file.h"
 #include "slab_floor.h"
-
-static const double window_limit = 0.02, rectangle_limit = 0.5;
+#include "slab_profile.h"
 
 struct options {
   bool strict, error;
@@ -48,55 +39,22 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
   }
 }
 
-static void add_to_profiles(const struct slab *slab, double *profiles[SLAB_AXES]) {
-  const float *sample = slab->rgb;
-  int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
-  for (int y = 0; y < slab_height(slab); ++y)
-    for (int x = 0; x < slab_width(slab); ++x, sample += 3) {
-      double size = 0;
-      for (int c = 0; c < 3; ++c) size += fabs((double)sample[c]);
-      profiles[SLAB_U][x / ns] += size;
-      profiles[SLAB_S][x % ns] += size;
-      profiles[SLAB_V][y / nt] += size;
-      profiles[SLAB_T][y % nt] += size;
-    }
-}
-
-/* Warns about both ends of one axis; a 1-wide axis says nothing. */
-static int judge_axis(const char *path, int page, int axis, const double *profile, int count) {
-  static const char names[] = "uvst";
-  bool window = axis == SLAB_S || axis == SLAB_T;
-  double peak = 0, limit = window ? window_limit : rectangle_limit;
-  for (int k = 0; k < count; ++k) peak = fmax(peak, profile[k]);
-  int warnings = 0;
-  for (int end = 0; end < 2 && count > 1; ++end) {
-    double share = profile[end ? count - 1 : 0] / peak;
-    if (!(share > limit)) continue;
-    ++warnings;
-    printf("%s: page %d: warning: light is cut off at the %s end of %c (%s): the last samples "
-           "have %.3g %% of the brightest, more than %g %%\n",
-           path, page + 1, end ? "high" : "low", names[axis], window ? "st window" : "uv rectangle",
-           100 * share, 100 * limit);
-  }
-  return warnings;
-}
-
 static enum slab_result judge_page(const char *path, int page, const struct slab *slab,
                                    int *warnings, struct slab_error *error) {
-  enum slab_result result = SLAB_OK;
-  double *profiles[SLAB_AXES] = {0};
-  for (int axis = 0; axis < SLAB_AXES; ++axis) {
-    profiles[axis] = calloc((size_t)slab->samples[axis], sizeof *profiles[axis]);
-    if (!profiles[axis]) {
-      result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
-      goto out;
-    }
+  struct slab_profile profile;
+  enum slab_result result = slab_profile(slab, &profile, error);
+  for (int k = 0; k < 2 * SLAB_AXES && !result; ++k) {
+    int axis = k / 2, end = k % 2;
+    double share = slab_profile_cut_off(&profile, axis, end);
+    if (share == 0) continue;
+    ++*warnings;
+    printf("%s: page %d: warning: light is cut off at the %s end of %c (%s): the last samples "
+           "have %.3g %% of the brightest, more than %g %%\n",
+           path, page + 1, end ? "high" : "low", "uvst"[axis],
+           axis < SLAB_S ? "uv rectangle" : "st window", 100 * share,
+           100 * slab_profile_limit(axis));
   }
-  add_to_profiles(slab, profiles);
-  for (int axis = 0; axis < SLAB_AXES; ++axis)
-    *warnings += judge_axis(path, page, axis, profiles[axis], slab->samples[axis]);
-out:
-  for (int axis = 0; axis < SLAB_AXES; ++axis) free(profiles[axis]);
+  slab_profile_free(&profile);
   return result;
 }
 

@@ -12,10 +12,8 @@
 enum { PROBE_SIDE = 16, PROBE_VIEWS = 256, PROBE_MARKER = 5 };
 
 /* Canned_Bake_Probe keeps the effects' cost out; what depends on them is parsed. */
-static const char probe_scene[] = "#version 3.7;\n"
-                                  "#declare Canned_Bake_Describe = \"declared.txt\";\n"
+static const char probe_scene[] = "#declare Canned_Bake_Describe = \"declared.txt\";\n"
                                   "#declare Canned_Bake_Probe = 1;\n"
-                                  "%s%s%s"
                                   "#include \"canned_bake.inc\"\n"
                                   "#include \"" LAMP_SCRIPT "\"\n"
                                   "Canned_Probe()\n";
@@ -144,13 +142,17 @@ static void read_picture(const struct slab_picture *picture, struct lamp *lamp) 
   }
 }
 
-static enum slab_result write_probe(const char *directory, const char *effects,
+static enum slab_result write_probe(const char *directory, const struct effects *effects,
                                     struct slab_error *error) {
   char *scene = NULL;
-  if (asprintf(&scene, probe_scene, effects ? "#declare Canned_Bake_Effects = \"" : "",
-               effects ? effects : "", effects ? "\";\n" : "") < 0)
-    return slab_fail(error, SLAB_MEMORY, "out of memory");
-  enum slab_result result = files_write(directory, "scene.pov", scene, error);
+  size_t size;
+  FILE *out = open_memstream(&scene, &size);
+  if (!out) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  fputs("#version 3.7;\n", out);
+  if (effects) effects_declare(effects, out);
+  fputs(probe_scene, out);
+  enum slab_result result = fclose(out) ? slab_fail(error, SLAB_MEMORY, "out of memory")
+                                        : files_write(directory, "scene.pov", scene, error);
   free(scene);
   return result;
 }
@@ -171,7 +173,7 @@ static enum slab_result run_listing(const struct povray *povray, const struct po
 }
 
 enum slab_result lamp_probe(const struct povray *povray, const struct lamp_source *source,
-                            const char *directory, const char *effects,
+                            const char *directory, const struct effects *effects,
                             const volatile sig_atomic_t *stop, struct lamp *lamp,
                             struct slab_error *error) {
   *lamp = (struct lamp){0};

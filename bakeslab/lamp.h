@@ -9,6 +9,7 @@
 
 #include <signal.h>
 
+#include "effects.h"
 #include "lamp_reads.h"
 #include "povray.h"
 #include "slab.h"
@@ -68,7 +69,7 @@ void lamp_source_rename(const struct lamp_source *source, struct slab_error *err
  * that the script is to find on; NULL leaves that to its Canned_Needs. `stop` as for
  * povray_run. Free the lamp with lamp_free in any case. */
 enum slab_result lamp_probe(const struct povray *povray, const struct lamp_source *source,
-                            const char *directory, const char *effects,
+                            const char *directory, const struct effects *effects,
                             const volatile sig_atomic_t *stop, struct lamp *lamp,
                             struct slab_error *error);
 void lamp_free(struct lamp *lamp);
