@@ -44,6 +44,7 @@ struct bake_report {
   bool assembled;        /* false: a shard, which leaves that to the run without */
   double cpu, probe_cpu; /* seconds of POV-Ray in this run, for the slab and before it */
   double traced;         /* rays of all kinds, by POV-Ray's own count, of all batches */
+  int depth;             /* the deepest trace level that POV-Ray reached */
   char cut_off[256];     /* where the light goes on beyond a page's window; or empty */
   double error;          /* the slab's own, as slab_floor.h tells it; with a tolerance */
   bool housing_left_out; /* the script's Canned_Housing needs more than itself */

@@ -43,7 +43,7 @@ struct run {
   size_t *order;        /* batches to render, in this order */
   size_t count, next;
   size_t rays_done, rays_all;
-  double traced;
+  double traced, depth; /* see bake_report */
   struct progress progress;
 };
 
@@ -121,25 +121,26 @@ static enum slab_result start_batch(struct run *run, struct process *process, si
   return result;
 }
 
-/* POV-Ray dies of a full disk without saying so; another reason may be the true one. */
-static enum slab_result explain_full_disk(const struct bake_store *store, enum slab_result result,
-                                          struct slab_error *error) {
+/* POV-Ray dies of a full disk without saying so; another reason may be the true one. What it
+ * did not finish, some 26 bytes a ray, it may have removed. */
+static enum slab_result explain_full_disk(const struct bake_store *store, size_t rays,
+                                          enum slab_result result, struct slab_error *error) {
   struct statvfs disk;
   if (result == SLAB_STOPPED || statvfs(store->directory, &disk) != 0) return result;
-  if ((double)disk.f_bavail * (double)disk.f_frsize > 1 << 20) return result;
+  if ((double)disk.f_bavail * (double)disk.f_frsize > (1 << 20) + 26.0 * (double)rays)
+    return result;
   return slab_fail(error, SLAB_IO,
                    "%s: the disk is full; make room and run the same command again, it goes on "
                    "from the finished batches (%s)",
                    store->directory, error->text);
 }
 
-/* Rays of all kinds that POV-Ray traced for a batch. */
-static double count_traced(const char *directory) {
+/* Takes POV-Ray's own counts from the log of a finished batch. */
+static void count_work(struct run *run, const char *directory) {
   static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
-  double sum = 0;
   for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)
-    sum += fmax(0, povray_statistic(directory, labels[n]));
-  return sum;
+    run->traced += fmax(0, povray_statistic(directory, labels[n]));
+  run->depth = fmax(run->depth, povray_statistic(directory, "Max Level:"));
 }
 
 /* Photons that miss their targets are silent in POV-Ray, and lose the light. */
@@ -170,9 +171,9 @@ static enum slab_result end_batch(struct run *run, struct process *process, int 
   if (!result) result = check_photons(run, process, error);
   if (result == SLAB_BAD) slab_fail(error, result, "%s: %s", work->options->lamp, error->text);
   if (!result) result = lamp_reads_unchanged(&work->lamp->reads, error);
-  if (!result) run->traced += count_traced(process->scratch);
+  if (!result) count_work(run, process->scratch);
   if (!result) result = bake_store_commit(work->store, process->scratch, process->key, error);
-  if (result) result = explain_full_disk(work->store, result, error);
+  if (result) result = explain_full_disk(work->store, batch->rays, result, error);
   release(process, result != SLAB_OK);
   return result ? result : take_batch(run, process->batch, error);
 }
@@ -193,7 +194,7 @@ static bool is_verified(struct run *run, size_t batch, const char *key) {
   if (!bake_store_has(run->work->store, key)) return false;
   bool whole = read_batch(run, batch, NULL) == SLAB_OK;
   char *path = bake_store_path(run->work->store, key);
-  if (path && whole) run->traced += count_traced(path);
+  if (path && whole) count_work(run, path);
   if (path && !whole) files_remove_tree(path); /* damaged: bake it again */
   free(path);
   return whole;
@@ -275,7 +276,7 @@ static enum slab_result loop(struct run *run, const char *label, struct bake_rep
       if (result) return result;
       if (!process || run->next == run->count) break;
       result = start_batch(run, process, run->order[run->next++], error);
-      if (result) return explain_full_disk(run->work->store, result, error);
+      if (result) return explain_full_disk(run->work->store, 0, result, error);
     }
     bool busy = false;
     for (int n = 0; n < run->slots; ++n) busy |= run->processes[n].state != IDLE;
@@ -316,6 +317,7 @@ enum slab_result bake_run(const struct bake_work *work, const struct bake_round 
   if (run.processes) kill_all(&run);
   progress_end(&run.progress);
   report->traced += run.traced;
+  if (report->depth < run.depth) report->depth = (int)run.depth;
   free(run.processes);
   free(run.order);
   free(run.ready);

@@ -91,38 +91,45 @@ static bool is_dear(enum effect effect) {
   return effect == INTERREFLECTION || effect == EXTENDED_SOURCE;
 }
 
+/* Whether rays still end at the trace level of this take: more levels may matter, though
+ * these did not. */
+static bool is_too_shallow(enum effect effect, int level, const struct probe_take *take) {
+  return effect == DEEP_TRACE && take->depth >= effect_setting(effect, level);
+}
+
 /* Tries one effect on top of `effects`, of which *base is the take, and leaves both as found
  * best. */
 static enum slab_result try_effect(const struct bake_work *work, enum effect effect,
                                    struct effects *effects, struct probe_take *base,
                                    struct probe_effect *found, struct bake_report *report,
                                    struct slab_error *error) {
-  bool sparse = is_dear(effect);
-  double threshold = work->options->effect_threshold;
-  for (int level = 1; level <= effect_levels(effect); ++level) {
+  enum slab_result result = SLAB_OK;
+  bool go_on = true;
+  for (int level = 1; level <= effect_levels(effect) && go_on && !result; ++level) {
     struct effects more = *effects;
     struct probe_take with;
     more.level[effect] = level;
-    enum slab_result result = take(work, &more, sparse, &with, report, error);
+    result = take(work, &more, is_dear(effect), &with, report, error);
     struct probe_change change = {0};
     if (!result) change = compare(base, &with);
-    bool good = matters(&change, threshold);
-    if (level == 1) {
-      found->first = change;
-    } else {
+    bool good = matters(&change, work->options->effect_threshold);
+    if (effects->level[effect]) {
       found->next = change;
       found->tried = true;
       found->converged = !good;
+    } else {
+      found->first = change;
     }
-    if (result || !good) {
+    go_on = good || is_too_shallow(effect, level, &with);
+    if (good) {
+      *effects = more;
+      probe_take_free(base);
+      *base = with;
+    } else {
       probe_take_free(&with);
-      return result;
     }
-    *effects = more;
-    probe_take_free(base);
-    *base = with;
   }
-  return SLAB_OK;
+  return result;
 }
 
 enum slab_result probe_effects(const struct bake_work *work, struct effects *effects,
@@ -157,9 +164,11 @@ void probe_say(const struct probe *probe, const struct effects *effects, enum ef
   int used = snprintf(line, PROBE_LINE, "%s: flux %+.2g %%, %.2g %% RMS, rays x %.2g",
                       level ? "on" : "off", 100 * found->first.flux, 100 * found->first.rms,
                       found->first.rays);
-  if (!level || !found->tried || used < 0 || used >= PROBE_LINE) return;
-  snprintf(line + used, (size_t)(PROBE_LINE - used), "; %d %s, %s %.2g %%, %.2g %% RMS",
-           effect_setting(effect, level), settings[effect],
-           found->converged ? "more would change" : "not converged, the last change was",
-           100 * found->next.flux, 100 * found->next.rms);
+  if (level && used > 0 && used < PROBE_LINE)
+    used += snprintf(line + used, (size_t)(PROBE_LINE - used), "; %d %s",
+                     effect_setting(effect, level), settings[effect]);
+  if (level && found->tried && used > 0 && used < PROBE_LINE)
+    snprintf(line + used, (size_t)(PROBE_LINE - used), ", %s %.2g %%, %.2g %% RMS",
+             found->converged ? "more would change" : "not converged, the last change was",
+             100 * found->next.flux, 100 * found->next.rms);
 }

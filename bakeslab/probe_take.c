@@ -35,6 +35,7 @@ enum slab_result probe_take(const struct bake_work *work, const struct slab *sla
   if (!result) result = bake_sum_finish(rounds.sum, small.look.gain, take->pages, error);
   bake_rounds_free(&rounds);
   take->traced = own.traced;
+  take->depth = own.depth;
   report->probe_cpu += own.cpu;
   return result;
 }

@@ -8,7 +8,8 @@
 struct probe_take {
   struct slab *pages; /* owned */
   int count;
-  double traced; /* rays of all kinds */
+  double traced; /* as in bake_report */
+  int depth;
 };
 
 /* Bakes slabs[work->lamp->slab_count] with `samples` of `rays` each, whatever theirs are.

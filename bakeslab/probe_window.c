@@ -16,8 +16,8 @@ static void widen(const struct slab *page, int axis, const double *profile, doub
   double all = 0, below = 0, above = 0;
   for (int k = 0; k < count; ++k) all += profile[k];
   if (all == 0) return;
-  while (below + profile[low] <= negligible * all) below += profile[low++];
-  while (above + profile[high] <= negligible * all) above += profile[high--];
+  while (low < count && below + profile[low] <= negligible * all) below += profile[low++];
+  while (high >= 0 && above + profile[high] <= negligible * all) above += profile[high--];
   double step = slab_spacing(page, axis);
   window[0] = fmin(window[0], slab_position(page, axis, low) - 1.5 * step);
   window[1] = fmax(window[1], slab_position(page, axis, high) + 1.5 * step);
@@ -64,7 +64,7 @@ enum slab_result probe_window(const struct bake_work *work, struct slab *slabs,
   *windows = (struct probe_windows){0};
   if (count > MOST_PAGES)
     return slab_fail(error, SLAB_BAD, "--window auto: more than %d pages", MOST_PAGES);
-  for (int n = 0; n < count; ++n)
+  for (int n = 0; n < MOST_PAGES; ++n)
     for (int k = 0; k < 4; ++k) light[n][k] = k % 2 ? -INFINITY : INFINITY;
   /* Interreflection is dear and smooth: a coarse look will do. */
   enum slab_result result = SLAB_OK;

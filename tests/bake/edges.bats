@@ -111,15 +111,6 @@ camera { location y look_at x }'
   done
 }
 
-@test "without Canned_Needs every effect is on, with or without glass" {
-  sed /Canned_Needs/d flat.pov >lamp.pov
-  small lamp.pov -q -o x.exr
-  "$BAKESLAB" info --json x.exr | tr -d ' \n' |
-    grep -q '"interreflection":"on","caustics":"on","extended_source":"on","deep_trace":"on"'
-  small lamp.pov -q -o x.exr --effects none
-  "$BAKESLAB" info --json x.exr | grep -q '"caustics": "off"'
-}
-
 @test "caustics: glass before a bulb brightens what is behind it" {
   cat >lamp.pov <<'LAMP'
 #version 3.7;

@@ -1,0 +1,134 @@
+#!/usr/bin/env bats
+# What a bake finds out by itself: effects, windows, resolution.
+bats_require_minimum_version 1.5.0
+load bake
+
+setup() { bake_setup; }
+
+# lamp FILE TEXT: one slab, 2 wide, and a lamp in it; no Canned_Needs.
+lamp() {
+  cat >"$1" <<'LAMP'
+#version 3.7;
+#include "canned.inc"
+Canned_Lamp("probed")
+Canned_Slab(<0, 0, 0>, <2, 0, 0>, <0, 2, 0>, <0, 0, 1>, <-1, 1, -1, 1>, 0)
+LAMP
+  printf '%s\n' "$2" >>"$1"
+}
+white_box='Canned_Bulb(<0, 0, -1.5>, 0.3, 5)
+difference { box { <-1.4, -1.4, -2.4>, <1.4, 1.4, 0> } box { -1.2, <1.2, 1.2, 1> translate -0.8*z } pigment { rgb 0.5 } finish { diffuse 1 } }'
+
+# effect FILE WORD: what was decided of it.
+effect() { "$BAKESLAB" info --json "$1" | tr '\n' ' ' | sed "s/.*\"$2\": \"\([^\"]*\)\".*/\1/"; }
+flux() { "$BAKESLAB" info "$1" | awk '$1 == "flux" { print $2 }'; }
+field() { "$BAKESLAB" info --json "$1" | tr -d ' \n' | sed "s/.*\"$2\":\[\([^]]*\)\].*/\1/" | tr ',' ' '; }
+# near A B PART: two numbers agree.
+near() { awk -v a="$1" -v b="$2" -v p="$3" 'BEGIN { print a, b; exit !(a - b <= p*b && b - a <= p*b) }'; }
+
+@test "a lamp that calls for nothing gets nothing, and the same samples as without a probe" {
+  sed /Canned_Needs/d flat.pov >lamp.pov
+  small lamp.pov -q -o x.exr
+  small lamp.pov -q -o y.exr --effects none
+  same x.exr y.exr
+  for word in interreflection caustics extended_source deep_trace; do
+    effect x.exr "$word"
+    [[ $(effect x.exr "$word") == "off: flux +0 %, 0 % RMS, "* ]]
+    [ "$(effect y.exr "$word")" = off ]
+  done
+}
+
+@test "a white box calls for interreflection, as many bounces as change it, and nothing else" {
+  lamp box.pov "$white_box"
+  bake box.pov -q -o auto.exr --uv 4 --st 8 --rays 4
+  for word in interreflection caustics extended_source deep_trace; do effect auto.exr "$word"; done
+  [[ $(effect auto.exr interreflection) =~ ^on:\ flux\ \+[1-9].*\;\ [2345]\ bounces,\ (more|not) ]]
+  [[ $(effect auto.exr caustics) == off:* && $(effect auto.exr deep_trace) == off:* ]]
+  bake box.pov -q -o all.exr --uv 4 --st 8 --rays 4 --effects all
+  near "$(flux auto.exr)" "$(flux all.exr)" 0.04 # all has two bounces
+  # By a threshold that it does not reach, it does not matter.
+  bake box.pov -q -o none.exr --uv 4 --st 8 --rays 4 --effect-threshold 0.9
+  [[ $(effect none.exr interreflection) == off:* ]]
+  # Canned_Needs is believed, unless a probe is asked for.
+  sed '/Canned_Lamp/a Canned_Needs("")' box.pov >needs.pov
+  bake needs.pov -q -o needs.exr --uv 4 --st 8 --rays 4
+  [ "$(effect needs.exr interreflection)" = off ]
+  bake needs.pov -q -o probe.exr --uv 4 --st 8 --rays 4 --effects probe --jobs 1
+  same probe.exr auto.exr
+}
+
+@test "a bulb close to a blind calls for an extended source" {
+  # A disc hides the bulb's centre from the wall behind it, but not its rim.
+  lamp blind.pov 'Canned_Bulb(<0, 0, -2>, 0.5, 5)
+    disc { <0, 0, -2.7>, z, 0.45 pigment { rgb 0 } }
+    plane { z, -4 pigment { rgb 0.8 } finish { diffuse 1 } }'
+  bake blind.pov -q -o x.exr --uv 2 --st 4 --rays 1 --effect-threshold 0.002
+  effect x.exr extended_source
+  [[ $(effect x.exr extended_source) =~ ^on:.*\;\ (5|9|17)\ lights\ a\ side ]]
+}
+
+@test "deep glass calls for a deeper trace, taken as far as it matters" {
+  # Each pane takes two levels; 40 of them are more than 30 levels, and less than 120.
+  lamp panes.pov '#for (K, 1, 40)
+      box { <-9, -9, -0.04*K>, <9, 9, -0.04*K + 0.02> pigment { rgbf 1 } interior { ior 1.2 } }
+    #end
+    plane { z, -2 pigment { rgb 1 } finish { emission 1 } }'
+  bake panes.pov -q -o x.exr --uv 2 --st 4 --rays 1
+  effect x.exr deep_trace
+  [[ $(effect x.exr deep_trace) =~ ^on:.*\;\ 120\ levels ]]
+  [ "$(echo 0 0 0 0 0 1 | "$BAKESLAB" lookup x.exr | awk '{ print ($1 > 0.1) }')" -eq 1 ]
+}
+
+@test "photons that all miss are refused by the probe too" {
+  lamp globe.pov 'Canned_Bulb(<0, 0, -2>, 0.2, 5)
+    difference { sphere { <0, 0, -2>, 1 } sphere { <0, 0, -2>, 0.9 } pigment { rgbf 1 } interior { ior 1.5 } photons { target refraction on } }
+    plane { z, -4 pigment { rgb 0.8 } finish { diffuse 1 } }'
+  refused 1 'globe.pov: caustics: POV-Ray shot [0-9]+ photons' x.tif bake globe.pov -o x.tif --uv 2 --st 4
+}
+
+@test "--window auto keeps the light and drops the dark; a dark page stays as it is" {
+  # A round beam of half angle 0.2 about the slope 0.3.
+  lamp beam.pov 'box { <-50, -50, -101>, <50, 50, -100> pigment { function { select(sqrt(pow(x + 30, 2) + y*y) - 20, 1, 1, 0) } color_map { [0.5 rgb 0] [0.5 rgb 1] } } finish { emission 1 } }
+    Canned_Slab(<0, 0, 5>, <2, 0, 0>, <0, 2, 0>, <0, 0, 1>, <-1, 1, -1, 1>, 0)
+    box { <-3, -3, 4>, <3, 3, 4.1> pigment { rgb 0 } }'
+  bake beam.pov -q -o wide.exr --uv 2 --st 64 --rays 16
+  bake beam.pov -q -o fit.exr --uv 2 --st 64 --rays 16 --window auto
+  "$BAKESLAB" info fit.exr
+  "$BAKESLAB" info fit.exr | awk '/st window/ && !seen++ { if ($3 < -0.1 || $3 > 0.1 || $4 < 0.5 || $4 > 0.75 ||
+    $6 < -0.45 || $6 > -0.2 || $7 < 0.2 || $7 > 0.45) exit 1 }'
+  near "$(flux fit.exr | head -n 1)" "$(flux wide.exr | head -n 1)" 0.005
+  "$BAKESLAB" info fit.exr | grep -q 'window  *page 1: .* of the declared -1 to 1, -1 to 1; page 2: 100 %'
+}
+
+@test "--tolerance: fewer samples where the light is smooth, and the error it promises" {
+  lamp smooth.pov 'plane { z, -2 pigment { rgb 1 } finish { emission 1 } }'
+  lamp sharp.pov 'plane { z, -2 pigment { checker rgb 0 rgb 1 scale 0.7 } finish { emission 1 } }'
+  bake smooth.pov -q -o smooth.exr --rays 2 --tolerance 0.05
+  bake sharp.pov -o sharp.exr --rays 2 --tolerance 0.05 2>talk
+  cat talk
+  count() { "$BAKESLAB" info "$1" | awk '$1 == "samples" && $3 == "x" { print $2*$4*$6*$8 + 0 }'; }
+  echo "$(count smooth.exr) $(count sharp.exr)"
+  [ "$(($(count smooth.exr) * 8))" -lt "$(count sharp.exr)" ]
+  grep -q "note: the slab's own error is about 0.0[0-9]* (tolerance 0.05)" talk
+  awk '/own error/ { exit !($10 > 0 && $10 < 1.3*0.05) }' talk
+  # What is given stays given.
+  bake sharp.pov -q -o given.exr --rays 2 --tolerance 0.05 --uv 4x3
+  [[ $(field given.exr samples) == "4 3 "* ]]
+}
+
+@test "--for-distance puts the st plane there where that is cheaper, with the same light" {
+  # Fine bars 8 off: sharp on a plane there, different from each position.
+  lamp slide.pov 'plane { z, -0.5 pigment { rgb 1 } finish { emission 1 } }
+    union { #for (K, -40, 40) box { <0.4*K, -20, 7>, <0.4*K + 0.2, 20, 7.01> } #end pigment { rgb 0 } no_shadow translate -9*z }'
+  lamp screen.pov 'plane { z, -3 pigment { rgb 1 } finish { emission 1 } }
+    plane { z, -0.2 pigment { checker rgb 0 rgbt 1 scale 0.25 } finish { diffuse 0 } }'
+  bake screen.pov -q -o x.exr --rays 2 --for-distance 8 --tolerance 0.05
+  "$BAKESLAB" info x.exr | grep -q 'resolution  *tolerance 0.05 .* at 8 lamp units and beyond .*; st plane '
+}
+
+@test "what makes no sense is refused" {
+  local option
+  for option in '--tolerance 0' '--tolerance nan' '--for-distance -1' '--effect-threshold x' '--window narrow'; do
+    # shellcheck disable=SC2086 # an option and its value
+    refused 2 "${option% *}" x.tif bake flat.pov -o x.tif $option
+  done
+}
