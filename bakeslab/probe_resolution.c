@@ -173,6 +173,23 @@ static void say(const struct bake_options *options, const struct choice *choice,
            resolution->distance, choice->uv, choice->st, choice->error, planes);
 }
 
+/* Gives the pages the samples chosen, and the st plane that they were chosen for. */
+static void apply(const struct bake_work *work, const struct choice *choice,
+                  const struct plane_errors *plane, struct slab *slabs,
+                  struct probe_resolution *resolution) {
+  const struct bake_options *options = work->options;
+  for (int n = 0; n < plane->count; ++n) {
+    for (int axis = 0; axis < 4; ++axis) {
+      bool positions = axis < SLAB_S, free = positions ? options->uv_free : options->st_free;
+      const int *fixed = positions ? options->uv : options->st;
+      slabs[n].samples[axis] = !free ? fixed[axis % 2] : positions ? choice->uv : choice->st;
+      slabs[n].st_window[axis] = plane->slabs[n].st_window[axis];
+    }
+    slabs[n].st_distance = plane->slabs[n].st_distance;
+    resolution->distance = fmax(resolution->distance, distance_of(work, &slabs[n]));
+  }
+}
+
 enum slab_result probe_resolution(const struct bake_work *work, struct slab *slabs,
                                   struct probe_resolution *resolution, struct bake_report *report,
                                   struct slab_error *error) {
@@ -183,22 +200,14 @@ enum slab_result probe_resolution(const struct bake_work *work, struct slab *sla
   enum slab_result result = SLAB_OK;
   for (int n = 0; n < several && !result; ++n) {
     result = judge_plane(work, slabs, n == 1, &planes[n], report, error);
-    if (result) break;
-    choices[n] = choose(&planes[n], options);
-    if (n && is_better(&choices[n], &choices[0], options->tolerance)) best = n;
+    if (!result) choices[n] = choose(&planes[n], options);
+    if (!result && n && is_better(&choices[n], &choices[0], options->tolerance)) best = n;
   }
-  for (int n = 0; n < planes[best].count && !result; ++n) {
-    const int wanted[SLAB_AXES] = {options->uv_free ? choices[best].uv : options->uv[0],
-                                   options->uv_free ? choices[best].uv : options->uv[1],
-                                   options->st_free ? choices[best].st : options->st[0],
-                                   options->st_free ? choices[best].st : options->st[1]};
-    memcpy(slabs[n].st_window, planes[best].slabs[n].st_window, sizeof slabs[n].st_window);
-    slabs[n].st_distance = planes[best].slabs[n].st_distance;
-    memcpy(slabs[n].samples, wanted, sizeof wanted);
-    resolution->distance = fmax(resolution->distance, distance_of(work, &slabs[n]));
+  if (!result) {
+    apply(work, &choices[best], &planes[best], slabs, resolution);
+    resolution->error = choices[best].error;
+    say(options, &choices[best], choices, best == 1, resolution);
   }
-  resolution->error = choices[best].error;
-  if (!result) say(options, &choices[best], choices, best == 1, resolution);
   for (int n = 0; n < several; ++n) free_errors(&planes[n]);
   return result;
 }

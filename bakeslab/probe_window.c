@@ -59,20 +59,20 @@ enum slab_result probe_window(const struct bake_work *work, struct slab *slabs,
   enum { MOST_PAGES = 64 };
   int count = work->lamp->slab_count, positions = count > 1 ? 2 : 4;
   struct effects effects = *work->look.effects;
-  bool all_round = effects.level[INTERREFLECTION] > 0;
+  int looks = effects.level[INTERREFLECTION] > 0 ? 2 : 1;
   double light[MOST_PAGES][4];
   *windows = (struct probe_windows){0};
   if (count > MOST_PAGES)
     return slab_fail(error, SLAB_BAD, "--window auto: more than %d pages", MOST_PAGES);
   for (int n = 0; n < MOST_PAGES; ++n)
     for (int k = 0; k < 4; ++k) light[n][k] = k % 2 ? -INFINITY : INFINITY;
-  /* Interreflection is dear and smooth: a coarse look will do. */
+  /* The second look is for interreflection, which is dear and smooth: a coarse one will do. */
   enum slab_result result = SLAB_OK;
-  for (int coarse = 0; coarse <= all_round && !result; ++coarse) {
-    int directions = coarse ? 10 : 24;
+  for (int look = 0; look < looks && !result; ++look) {
+    int directions = look == 0 ? 24 : 10;
     const int samples[SLAB_AXES] = {positions, positions, directions, directions};
     struct probe_take take;
-    effects.level[INTERREFLECTION] = coarse ? work->look.effects->level[INTERREFLECTION] : 0;
+    effects.level[INTERREFLECTION] = look == 0 ? 0 : work->look.effects->level[INTERREFLECTION];
     result = probe_take(work, slabs, &effects, samples, 1, &take, report, error);
     if (!result) result = widen_all(&take, light, error);
     probe_take_free(&take);
