@@ -11,7 +11,7 @@ static json_t *effects_json(const struct bake_work *work, const struct bake_orig
   json_t *object = json_object();
   for (int k = 0; k < EFFECTS; ++k) {
     char line[PROBE_LINE];
-    bool on = work->look.effects->level[k] > 0;
+    bool on = work->look.effects->setting[k] > 0;
     snprintf(line, sizeof line, "%s", on ? "on" : "off");
     if (origin->probed) probe_say(&origin->probe, work->look.effects, (enum effect)k, line);
     json_object_set_new(object, effect_word((enum effect)k), json_string(line));

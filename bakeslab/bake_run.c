@@ -148,16 +148,16 @@ static enum slab_result check_photons(const struct run *run, const struct proces
                                       struct slab_error *error) {
   enum { TOO_FEW = 1000 };
   const struct effects *effects = run->work->look.effects;
-  if (!effects->level[CAUSTICS]) return SLAB_OK;
+  if (!effects->setting[CAUSTICS]) return SLAB_OK;
   double shot = povray_statistic(process->scratch, "Number of photons shot:");
   double stored = povray_statistic(process->scratch, "Surface photons stored:");
   if (shot >= TOO_FEW && stored > 0) return SLAB_OK;
   if (!effects->named && (shot <= 0 || shot >= TOO_FEW)) return SLAB_OK;
   return slab_fail(error, SLAB_BAD,
-                   "%s: caustics: POV-Ray shot %.0f photons and stored %.0f; give the glass or "
+                   "caustics: POV-Ray shot %.0f photons and stored %.0f; give the glass or "
                    "mirror `photons { target ... }`, keep its centre off the bulb's, or leave "
                    "caustics out of --effects",
-                   run->work->options->lamp, shot > 0 ? shot : 0, stored > 0 ? stored : 0);
+                   shot > 0 ? shot : 0, stored > 0 ? stored : 0);
 }
 
 static enum slab_result end_batch(struct run *run, struct process *process, int status,

@@ -78,7 +78,7 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
         out);
   effects_declare(look->effects, out);
   /* A finer pretrace than every 16th pixel costs much and gains 0.01 %. */
-  if (look->effects->level[INTERREFLECTION])
+  if (look->effects->setting[INTERREFLECTION])
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
             job->height > job->width ? job->height : job->width);
   fputs("#include \"canned_bake.inc\"\n#include \"" LAMP_SCRIPT "\"\n", out);

@@ -54,7 +54,9 @@ static const struct argp_option options[] = {
      2},
     {"effects", OPTION_EFFECTS, "auto|probe|all|none|LIST", 0,
      "interreflection, caustics, extended_source, deep_trace (default auto: what the lamp's "
-     "Canned_Needs says, else probe: those that small bakes show to matter)",
+     "Canned_Needs says, else probe: those that small bakes show to matter). A word may say how "
+     "far: interreflection=4 bounces, caustics=100000 photons, extended_source=9 lights a side, "
+     "deep_trace=60 levels",
      3},
     {"effect-threshold", OPTION_THRESHOLD, "X", 0,
      "an effect matters if it changes the flux by more than this part of it, or samples by "

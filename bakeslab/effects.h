@@ -11,18 +11,18 @@
 enum effect { INTERREFLECTION, CAUSTICS, EXTENDED_SOURCE, DEEP_TRACE, EFFECTS };
 
 struct effects {
-  int level[EFFECTS]; /* 0: off; from 1 on: how far (effect_setting) */
-  bool named;         /* somebody asked for these, rather than for all */
+  int setting[EFFECTS]; /* 0: off; else how far: bounces, photons, lights along the source,
+                           trace level */
+  bool named;           /* somebody asked for these, rather than for all */
 };
 
 const char *effect_word(enum effect effect);
 
-/* What a level from 1 on stands for: bounces, photons, lights along the source, trace level. */
-int effect_setting(enum effect effect, int level);
-int effect_levels(enum effect effect); /* the last level */
+/* Settings that are worth trying, one after the other, up to a 0. */
+const int *effect_ladder(enum effect effect);
 
-/* "all", "none" or words separated by blanks or commas, each at canned.inc's own setting;
- * names the source ("--effects") where a word is unknown. */
+/* "all", "none", or words separated by blanks or commas, each alone, at canned.inc's own
+ * setting, or as "word=setting"; names the source ("--effects") of what is wrong. */
 enum slab_result effects_parse(const char *text, const char *source, struct effects *effects,
                                struct slab_error *error);
 

@@ -93,8 +93,8 @@ static bool is_dear(enum effect effect) {
 
 /* Whether rays still end at the trace level of this take: more levels may matter, though
  * these did not. */
-static bool is_too_shallow(enum effect effect, int level, const struct probe_take *take) {
-  return effect == DEEP_TRACE && take->depth >= effect_setting(effect, level);
+static bool is_too_shallow(enum effect effect, int setting, const struct probe_take *take) {
+  return effect == DEEP_TRACE && take->depth >= setting;
 }
 
 /* Tries one effect on top of `effects`, of which *base is the take, and leaves both as found
@@ -105,22 +105,22 @@ static enum slab_result try_effect(const struct bake_work *work, enum effect eff
                                    struct slab_error *error) {
   enum slab_result result = SLAB_OK;
   bool go_on = true;
-  for (int level = 1; level <= effect_levels(effect) && go_on && !result; ++level) {
+  for (const int *step = effect_ladder(effect); *step && go_on && !result; ++step) {
     struct effects more = *effects;
     struct probe_take with;
-    more.level[effect] = level;
-    result = take(work, &more, is_dear(effect), &with, report, error);
     struct probe_change change = {0};
+    more.setting[effect] = *step;
+    result = take(work, &more, is_dear(effect), &with, report, error);
     if (!result) change = compare(base, &with);
     bool good = matters(&change, work->options->effect_threshold);
-    if (effects->level[effect]) {
+    if (effects->setting[effect]) {
       found->next = change;
       found->tried = true;
       found->converged = !good;
     } else {
       found->first = change;
     }
-    go_on = good || is_too_shallow(effect, level, &with);
+    go_on = good || is_too_shallow(effect, *step, &with);
     if (good) {
       *effects = more;
       probe_take_free(base);
@@ -155,19 +155,18 @@ enum slab_result probe_effects(const struct bake_work *work, struct effects *eff
 
 void probe_say(const struct probe *probe, const struct effects *effects, enum effect effect,
                char line[PROBE_LINE]) {
-  static const char *const settings[EFFECTS] = {[INTERREFLECTION] = "bounces",
-                                                [CAUSTICS] = "photons",
-                                                [EXTENDED_SOURCE] = "lights a side",
-                                                [DEEP_TRACE] = "levels"};
+  static const char *const units[EFFECTS] = {[INTERREFLECTION] = "bounces",
+                                             [CAUSTICS] = "photons",
+                                             [EXTENDED_SOURCE] = "lights a side",
+                                             [DEEP_TRACE] = "levels"};
   const struct probe_effect *found = &probe->effects[effect];
-  int level = effects->level[effect];
+  int setting = effects->setting[effect];
   int used = snprintf(line, PROBE_LINE, "%s: flux %+.2g %%, %.2g %% RMS, rays x %.2g",
-                      level ? "on" : "off", 100 * found->first.flux, 100 * found->first.rms,
+                      setting ? "on" : "off", 100 * found->first.flux, 100 * found->first.rms,
                       found->first.rays);
-  if (level && used > 0 && used < PROBE_LINE)
-    used += snprintf(line + used, (size_t)(PROBE_LINE - used), "; %d %s",
-                     effect_setting(effect, level), settings[effect]);
-  if (level && found->tried && used > 0 && used < PROBE_LINE)
+  if (setting && used > 0 && used < PROBE_LINE)
+    used += snprintf(line + used, (size_t)(PROBE_LINE - used), "; %d %s", setting, units[effect]);
+  if (setting && found->tried && used > 0 && used < PROBE_LINE)
     snprintf(line + used, (size_t)(PROBE_LINE - used), ", %s %.2g %%, %.2g %% RMS",
              found->converged ? "more would change" : "not converged, the last change was",
              100 * found->next.flux, 100 * found->next.rms);

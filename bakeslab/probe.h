@@ -20,8 +20,8 @@ struct probe_change {
 };
 
 struct probe_effect {
-  struct probe_change first; /* what level 1 changes */
-  struct probe_change next;  /* what the next level would change, or the last one changed */
+  struct probe_change first; /* what it changes at all */
+  struct probe_change next;  /* what the next setting would change, or the last one changed */
   bool tried;                /* there is a next */
   bool converged;            /* and it does not matter */
 };

@@ -118,7 +118,7 @@ static enum slab_result judge_plane(const struct bake_work *work, const struct s
     result = slab_copy_geometry(&slabs[errors->count], slab, error);
     if (moved) move_plane(slab, work->options->for_distance);
   }
-  effects.level[INTERREFLECTION] = 0;
+  effects.setting[INTERREFLECTION] = 0;
   if (!result)
     result = probe_take(work, errors->slabs, &effects, taken, TAKEN_RAYS, &take, report, error);
   for (int n = 0; n < errors->count && !result; ++n)

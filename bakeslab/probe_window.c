@@ -59,7 +59,7 @@ enum slab_result probe_window(const struct bake_work *work, struct slab *slabs,
   enum { MOST_PAGES = 64 };
   int count = work->lamp->slab_count, positions = count > 1 ? 2 : 4;
   struct effects effects = *work->look.effects;
-  int looks = effects.level[INTERREFLECTION] > 0 ? 2 : 1;
+  int looks = effects.setting[INTERREFLECTION] > 0 ? 2 : 1;
   double light[MOST_PAGES][4];
   *windows = (struct probe_windows){0};
   if (count > MOST_PAGES)
@@ -72,7 +72,7 @@ enum slab_result probe_window(const struct bake_work *work, struct slab *slabs,
     int directions = look == 0 ? 24 : 10;
     const int samples[SLAB_AXES] = {positions, positions, directions, directions};
     struct probe_take take;
-    effects.level[INTERREFLECTION] = look == 0 ? 0 : work->look.effects->level[INTERREFLECTION];
+    effects.setting[INTERREFLECTION] = look == 0 ? 0 : work->look.effects->setting[INTERREFLECTION];
     result = probe_take(work, slabs, &effects, samples, 1, &take, report, error);
     if (!result) result = widen_all(&take, light, error);
     probe_take_free(&take);

@@ -55,6 +55,8 @@ setup() { bake_setup; }
 
 @test "words that are no effects, and units that are none" {
   refused 1 'effects: "shine" is no effect' x.tif bake flat.pov -o x.tif --effects caustics,shine
+  refused 1 'effects: "caustics=0": no whole number' x.tif bake flat.pov -o x.tif --effects deep_trace,caustics=0
+  refused 1 '"caustics=4x": no whole' x.tif bake flat.pov -o x.tif --effects caustics=4x
   sed 's/Needs(""/Needs("caustics sparkle"/' flat.pov >lamp.pov
   refused 1 'Canned_Needs: "sparkle" is none of' x.tif bake lamp.pov -o x.tif
   flat_lamp lamp.pov 'Canned_Radiance_Unit("lm")'
