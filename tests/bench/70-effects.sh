@@ -26,7 +26,8 @@ everything() {
   for word in interreflection caustics=100000 extended_source=9 deep_trace; do
     [[ $list == *"${word%=*}"* ]] || list=$list,$word
   done
-  ! "$BAKESLAB" info --json "$2" | grep -q '"caustics": "off: flux +0 %, 0 % RMS' || list=${list/,caustics=100000/}
+  "$BAKESLAB" info --json "$2" >info.json
+  ! grep -q '"caustics": "off: flux +0 %, 0 % RMS' info.json || list=${list/,caustics=100000/}
   echo "${list#,}"
 }
 # seconds FILE: CPU seconds of the small bakes and of the bake itself.
