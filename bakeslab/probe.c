@@ -8,9 +8,9 @@
 
 #include "probe_take.h"
 
-/* Directions along an axis of a take. Interreflection and extended sources are dear: their
- * takes are sparse. */
-enum { DENSE = 24, SPARSE = 10 };
+/* Directions along an axis of a take, before it is refined. Interreflection and extended
+ * sources are dear: their takes are sparse. */
+enum { DENSE = 24, SPARSE = 10, MOST_DIRECTIONS = 48 };
 
 /* ---- Comparing ---- */
 
@@ -18,13 +18,26 @@ static double luminance(const float *rgb) {
   return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
 }
 
-static double flux_of(const struct probe_take *take) {
-  double sum = 0, rgb[3];
+/* Flux by four parts of the rays, every other direction along s and t: each part tells all of
+ * the light, and their scatter how well. */
+enum { PARTS = 4 };
+
+static void sum_parts(const struct probe_take *take, double flux[PARTS]) {
+  for (int part = 0; part < PARTS; ++part) flux[part] = 0;
   for (int n = 0; n < take->count; ++n) {
-    slab_flux(&take->pages[n], rgb);
-    sum += 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    const struct slab *page = &take->pages[n];
+    const int *samples = page->samples;
+    const float *sample = page->rgb;
+    double area = slab_spacing(page, SLAB_S) * slab_spacing(page, SLAB_T) *
+                  slab_spacing(page, SLAB_U) * slab_spacing(page, SLAB_V);
+    for (int y = 0; y < slab_height(page); ++y)
+      for (int x = 0; x < slab_width(page); ++x, sample += 3) {
+        int k = x % samples[SLAB_S], l = y % samples[SLAB_T];
+        double s = slab_position(page, SLAB_S, k), t = slab_position(page, SLAB_T, l);
+        double r = 1 + s * s + t * t; /* near enough with a finite st plane too */
+        flux[2 * (l % 2) + k % 2] += luminance(sample) * area / (r * r);
+      }
   }
-  return sum;
 }
 
 static double ratio(double part, double whole) {
@@ -53,10 +66,28 @@ static void add_squares(const double *a, const double *b, size_t count, double s
   }
 }
 
-static struct probe_change compare(const struct probe_take *without,
-                                   const struct probe_take *with) {
-  enum { MOST = DENSE * DENSE };
-  double sums[2][2] = {{0}}, flux = flux_of(with);
+/* Fills the change's flux, and returns its standard error. */
+static double compare_flux(const struct probe_take *without, const struct probe_take *with,
+                           struct probe_change *change) {
+  double before[PARTS], after[PARTS], sums[2] = {0, 0}, squares = 0;
+  sum_parts(without, before);
+  sum_parts(with, after);
+  for (int part = 0; part < PARTS; ++part) {
+    sums[0] += before[part];
+    sums[1] += after[part];
+  }
+  change->flux = ratio(sums[1] - sums[0], sums[1]);
+  for (int part = 0; part < PARTS; ++part) {
+    double rest = after[part] - before[part] - change->flux * after[part];
+    squares += rest * rest;
+  }
+  return sqrt(ratio(squares * PARTS / (PARTS - 1), sums[1] * sums[1]));
+}
+
+static void compare_rms(const struct probe_take *without, const struct probe_take *with,
+                        struct probe_change *change) {
+  enum { MOST = MOST_DIRECTIONS * MOST_DIRECTIONS };
+  double sums[2][2] = {{0}};
   for (int n = 0; n < with->count; ++n) {
     const int *samples = with->pages[n].samples;
     double light[2][2][MOST] = {{{0}}}; /* without, with; by direction, by position */
@@ -66,10 +97,7 @@ static struct probe_change compare(const struct probe_take *without,
       add_squares(light[0][k], light[1][k], (size_t)samples[2 - 2 * k] * (size_t)samples[3 - 2 * k],
                   sums[k]);
   }
-  return (struct probe_change){
-      .flux = ratio(flux - flux_of(without), flux),
-      .rms = sqrt(fmax(ratio(sums[0][0], sums[0][1]), ratio(sums[1][0], sums[1][1]))),
-      .rays = ratio(with->traced, without->traced)};
+  change->rms = sqrt(fmax(ratio(sums[0][0], sums[0][1]), ratio(sums[1][0], sums[1][1])));
 }
 
 static bool matters(const struct probe_change *change, double threshold) {
@@ -78,40 +106,53 @@ static bool matters(const struct probe_change *change, double threshold) {
 
 /* ---- Deciding ---- */
 
-/* Few positions do where there are several pages. */
-static enum slab_result take(const struct bake_work *work, const struct effects *effects,
-                             bool sparse, struct probe_take *out, struct bake_report *report,
-                             struct slab_error *error) {
-  int positions = work->lamp->slab_count > 1 ? 2 : 4, directions = sparse ? SPARSE : DENSE;
-  const int samples[SLAB_AXES] = {positions, positions, directions, directions};
-  return probe_take(work, work->lamp->slabs, effects, samples, 1, out, report, error);
-}
-
 static bool is_dear(enum effect effect) {
   return effect == INTERREFLECTION || effect == EXTENDED_SOURCE;
 }
 
-/* Whether rays still end at the trace level of this take: more levels may matter, though
- * these did not. */
-static bool is_too_shallow(enum effect effect, int setting, const struct probe_take *take) {
-  return effect == DEEP_TRACE && take->depth >= setting;
+/* What `more` changes of `less`, and the trace level that it reached. The same rays show both;
+ * where they are too few to say on which side of the threshold the flux is, more of them do.
+ * Few positions suffice where there are several pages. */
+static enum slab_result measure(const struct bake_work *work, bool sparse,
+                                const struct effects *less, const struct effects *more,
+                                struct probe_change *change, int *depth, struct bake_report *report,
+                                struct slab_error *error) {
+  double threshold = work->options->effect_threshold;
+  int positions = work->lamp->slab_count > 1 ? 2 : 4;
+  enum slab_result result = SLAB_OK;
+  bool certain = false;
+  for (int n = sparse ? SPARSE : DENSE; n <= MOST_DIRECTIONS && !certain && !result; n *= 2) {
+    const int samples[SLAB_AXES] = {positions, positions, n, n};
+    const struct slab *slabs = work->lamp->slabs;
+    struct probe_take without = {0}, with = {0};
+    result = probe_take(work, slabs, less, samples, 1, &without, report, error);
+    if (!result) result = probe_take(work, slabs, more, samples, 1, &with, report, error);
+    if (!result) {
+      double deviation = compare_flux(&without, &with, change);
+      compare_rms(&without, &with, change);
+      change->rays = ratio(with.traced, without.traced);
+      *depth = with.depth;
+      certain = fabs(fabs(change->flux) - threshold) > 2 * deviation;
+    }
+    probe_take_free(&without);
+    probe_take_free(&with);
+  }
+  return result;
 }
 
-/* Tries one effect on top of `effects`, of which *base is the take, and leaves both as found
- * best. */
+/* Tries one effect on top of `effects`, and leaves it there as far as it matters. Where rays
+ * still end at the trace level, more levels may matter though these did not. */
 static enum slab_result try_effect(const struct bake_work *work, enum effect effect,
-                                   struct effects *effects, struct probe_take *base,
-                                   struct probe_effect *found, struct bake_report *report,
-                                   struct slab_error *error) {
+                                   struct effects *effects, struct probe_effect *found,
+                                   struct bake_report *report, struct slab_error *error) {
   enum slab_result result = SLAB_OK;
   bool go_on = true;
   for (const int *step = effect_ladder(effect); *step && go_on && !result; ++step) {
     struct effects more = *effects;
-    struct probe_take with;
     struct probe_change change = {0};
+    int depth = 0;
     more.setting[effect] = *step;
-    result = take(work, &more, is_dear(effect), &with, report, error);
-    if (!result) change = compare(base, &with);
+    result = measure(work, is_dear(effect), effects, &more, &change, &depth, report, error);
     bool good = matters(&change, work->options->effect_threshold);
     if (effects->setting[effect]) {
       found->next = change;
@@ -120,14 +161,8 @@ static enum slab_result try_effect(const struct bake_work *work, enum effect eff
     } else {
       found->first = change;
     }
-    go_on = good || is_too_shallow(effect, *step, &with);
-    if (good) {
-      *effects = more;
-      probe_take_free(base);
-      *base = with;
-    } else {
-      probe_take_free(&with);
-    }
+    go_on = good || (effect == DEEP_TRACE && depth >= *step);
+    if (good) *effects = more;
   }
   return result;
 }
@@ -137,19 +172,11 @@ enum slab_result probe_effects(const struct bake_work *work, struct effects *eff
                                struct slab_error *error) {
   static const enum effect order[EFFECTS] = {DEEP_TRACE, CAUSTICS, EXTENDED_SOURCE,
                                              INTERREFLECTION};
-  struct probe_take base = {0};
+  enum slab_result result = SLAB_OK;
   *effects = (struct effects){0};
   *probe = (struct probe){0};
-  enum slab_result result = take(work, effects, false, &base, report, error);
-  for (int k = 0; k < EFFECTS && !result; ++k) {
-    if (k && is_dear(order[k]) && !is_dear(order[k - 1])) { /* from here on, other rays */
-      probe_take_free(&base);
-      result = take(work, effects, true, &base, report, error);
-    }
-    if (!result)
-      result = try_effect(work, order[k], effects, &base, &probe->effects[order[k]], report, error);
-  }
-  probe_take_free(&base);
+  for (int k = 0; k < EFFECTS && !result; ++k)
+    result = try_effect(work, order[k], effects, &probe->effects[order[k]], report, error);
   return result;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the bake's small bakes decide for each lamp of lamps/, whatever its script says it
-# calls for, against a bake of the same rays with every effect, as deep; then what deciding
+# calls for, against a bake of the same rays with every effect, at least as far; then what deciding
 # costs beside a bake.
 set -euo pipefail
 # shellcheck source=tests/bench/bench.bash
@@ -19,16 +19,16 @@ decided() {
     / (bounces|photons|lights a side|levels)/ && $4 ~ /^on/ { match($4, /; [0-9]+/); on[$2] = substr($4, RSTART + 2, RLENGTH - 2) }
     END { for (w in on) { printf "%s%s=%s", b, w, on[w]; b = "," } }'
 }
-# everything LIST FILE: the list and what it lacks; caustics only where there is a target for
-# photons, without which a bake that is asked for them refuses.
+# everything LIST FILE: what --effects all stands for, and what was decided to go further;
+# caustics only where there is a target for photons, without which a bake that is asked for
+# them refuses.
 everything() {
-  local list=$1 word
-  for word in interreflection caustics=100000 extended_source=9 deep_trace; do
-    [[ $list == *"${word%=*}"* ]] || list=$list,$word
-  done
   "$BAKESLAB" info --json "$2" >info.json
-  ! grep -q '"caustics": "off: flux +0 %, 0 % RMS' info.json || list=${list/,caustics=100000/}
-  echo "${list#,}"
+  echo "interreflection=2,caustics=400000,extended_source=17,deep_trace=30,$1" | tr ',' '\n' |
+    awk -F= -v none="$(grep -c '"caustics": "off: flux +0 %, 0 % RMS' info.json)" '
+      $1 == "caustics" && none { next }
+      $1 != "" && $2 > most[$1] + 0 { most[$1] = $2 }
+      END { for (w in most) { printf "%s%s=%s", b, w, most[w]; b = "," } }'
 }
 # seconds FILE: CPU seconds of the small bakes and of the bake itself.
 seconds() { sed -n "s/.*$2 *\([0-9.]*\) CPU s.*/\1/p" "$1"; }
@@ -43,7 +43,7 @@ far() {
   "$BAKESLAB" diff --tolerance 1e30 "far-$1" "far-$2" | awk '/rmse/ { x = substr($5, 2)*100; if (x > most) most = x } END { printf "%.2f", most }'
 }
 
-heading 'Effects: decided by small bakes, against all of them as deep (same rays)'
+heading 'Effects: decided by small bakes, against all of them (same rays)'
 printf '  %-16s %7s %7s %9s %9s %6s  %s\n' lamp 'flux %' 'RMSE %' 'all CPU s' 'CPU s' ratio decided
 for lamp in "$root"/lamps/*.pov; do
   name=$(basename "$lamp" .pov)
