@@ -10,7 +10,7 @@
 
 /* Directions along an axis of a take, before it is refined. Interreflection and extended
  * sources are dear: their takes are sparse. */
-enum { DENSE = 24, SPARSE = 10, MOST_DIRECTIONS = 48 };
+enum { POSITIONS = 4, DENSE = 20, SPARSE = 10, MOST_DIRECTIONS = 40 };
 
 /* ---- Comparing ---- */
 
@@ -18,7 +18,7 @@ static double luminance(const float *rgb) {
   return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
 }
 
-/* Flux by four parts of the rays, every other direction along s and t: each part tells all of
+/* Flux by four parts of the rays, every other position along u and v: each part tells all of
  * the light, and their scatter how well. */
 enum { PARTS = 4 };
 
@@ -32,10 +32,11 @@ static void sum_parts(const struct probe_take *take, double flux[PARTS]) {
                   slab_spacing(page, SLAB_U) * slab_spacing(page, SLAB_V);
     for (int y = 0; y < slab_height(page); ++y)
       for (int x = 0; x < slab_width(page); ++x, sample += 3) {
-        int k = x % samples[SLAB_S], l = y % samples[SLAB_T];
-        double s = slab_position(page, SLAB_S, k), t = slab_position(page, SLAB_T, l);
+        double s = slab_position(page, SLAB_S, x % samples[SLAB_S]);
+        double t = slab_position(page, SLAB_T, y % samples[SLAB_T]);
         double r = 1 + s * s + t * t; /* near enough with a finite st plane too */
-        flux[2 * (l % 2) + k % 2] += luminance(sample) * area / (r * r);
+        flux[2 * (y / samples[SLAB_T] % 2) + x / samples[SLAB_S] % 2] +=
+            luminance(sample) * area / (r * r);
       }
   }
 }
@@ -111,18 +112,16 @@ static bool is_dear(enum effect effect) {
 }
 
 /* What `more` changes of `less`, and the trace level that it reached. The same rays show both;
- * where they are too few to say on which side of the threshold the flux is, more of them do.
- * Few positions suffice where there are several pages. */
+ * where they are too few to say on which side of the threshold the flux is, more of them do. */
 static enum slab_result measure(const struct bake_work *work, bool sparse,
                                 const struct effects *less, const struct effects *more,
                                 struct probe_change *change, int *depth, struct bake_report *report,
                                 struct slab_error *error) {
   double threshold = work->options->effect_threshold;
-  int positions = work->lamp->slab_count > 1 ? 2 : 4;
   enum slab_result result = SLAB_OK;
   bool certain = false;
   for (int n = sparse ? SPARSE : DENSE; n <= MOST_DIRECTIONS && !certain && !result; n *= 2) {
-    const int samples[SLAB_AXES] = {positions, positions, n, n};
+    const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, n, n};
     const struct slab *slabs = work->lamp->slabs;
     struct probe_take without = {0}, with = {0};
     result = probe_take(work, slabs, less, samples, 1, &without, report, error);

@@ -45,9 +45,6 @@ near() { awk -v a="$1" -v b="$2" -v p="$3" 'BEGIN { print a, b; exit !(a - b <= 
   [[ $(effect auto.exr caustics) == off:* && $(effect auto.exr deep_trace) == off:* ]]
   bake box.pov -q -o all.exr --uv 4 --st 8 --rays 4 --effects all
   near "$(flux auto.exr)" "$(flux all.exr)" 0.04 # all has two bounces
-  # By a threshold that it does not reach, it does not matter.
-  bake box.pov -q -o none.exr --uv 4 --st 8 --rays 4 --effect-threshold 0.9
-  [[ $(effect none.exr interreflection) == off:* ]]
   # Canned_Needs is believed, unless a probe is asked for.
   sed '/Canned_Lamp/a Canned_Needs("")' box.pov >needs.pov
   bake needs.pov -q -o needs.exr --uv 4 --st 8 --rays 4
