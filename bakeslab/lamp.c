@@ -49,6 +49,7 @@ static bool add_slab(struct lamp *lamp) {
 static bool read_bulb(const char *value, struct lamp *lamp) {
   double rgb[3];
   if (!read_numbers(value, 3, rgb)) return false;
+  lamp->bulbs = true;
   for (int c = 0; c < 3; ++c) lamp->peak = fmax(lamp->peak, fabs(rgb[c]));
   return true;
 }

@@ -37,6 +37,7 @@ struct lamp {
   bool needs_declared;
   char needs[256];         /* of Canned_Needs */
   struct lamp_reads reads; /* every file that the script reads */
+  bool bulbs;              /* Canned_Bulb was called */
   double peak;             /* brightest radiance seen by the probe, any channel */
   bool own_radiosity;      /* the script turns radiosity on by itself */
   bool mesh_camera;        /* works */

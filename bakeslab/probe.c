@@ -111,27 +111,40 @@ static bool is_dear(enum effect effect) {
   return effect == INTERREFLECTION || effect == EXTENDED_SOURCE;
 }
 
-/* What `more` changes of `less`, and the trace level that it reached. The same rays show both;
- * where they are too few to say on which side of the threshold the flux is, more of them do. */
-static enum slab_result measure(const struct bake_work *work, bool sparse,
+/* Whether an effect is known to change nothing: rays that end before canned.inc's ordinary
+ * trace level, or no Canned_Bulb to extend. */
+static bool is_idle(const struct bake_work *work, enum effect effect,
+                    const struct probe_take *without) {
+  enum { ORDINARY_LEVEL = 12 };
+  return (effect == DEEP_TRACE && without->depth < ORDINARY_LEVEL) ||
+         (effect == EXTENDED_SOURCE && !work->lamp->bulbs);
+}
+
+/* What an effect, further in `more` than in `less`, changes, and the trace level reached. The
+ * same rays show both; where they are too few to say on which side of the threshold the flux
+ * is, more of them do. */
+static enum slab_result measure(const struct bake_work *work, enum effect effect,
                                 const struct effects *less, const struct effects *more,
                                 struct probe_change *change, int *depth, struct bake_report *report,
                                 struct slab_error *error) {
-  double threshold = work->options->effect_threshold;
+  const struct slab *slabs = work->lamp->slabs;
   enum slab_result result = SLAB_OK;
   bool certain = false;
-  for (int n = sparse ? SPARSE : DENSE; n <= MOST_DIRECTIONS && !certain && !result; n *= 2) {
+  for (int n = is_dear(effect) ? SPARSE : DENSE; n <= MOST_DIRECTIONS && !certain && !result;
+       n *= 2) {
     const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, n, n};
-    const struct slab *slabs = work->lamp->slabs;
     struct probe_take without = {0}, with = {0};
     result = probe_take(work, slabs, less, samples, 1, &without, report, error);
-    if (!result) result = probe_take(work, slabs, more, samples, 1, &with, report, error);
-    if (!result) {
+    certain = is_idle(work, effect, &without);
+    *change = (struct probe_change){.rays = 1};
+    if (!result && !certain)
+      result = probe_take(work, slabs, more, samples, 1, &with, report, error);
+    if (!result && !certain) {
       double deviation = compare_flux(&without, &with, change);
       compare_rms(&without, &with, change);
       change->rays = ratio(with.traced, without.traced);
       *depth = with.depth;
-      certain = fabs(fabs(change->flux) - threshold) > 2 * deviation;
+      certain = fabs(fabs(change->flux) - work->options->effect_threshold) > 2 * deviation;
     }
     probe_take_free(&without);
     probe_take_free(&with);
@@ -151,7 +164,7 @@ static enum slab_result try_effect(const struct bake_work *work, enum effect eff
     struct probe_change change = {0};
     int depth = 0;
     more.setting[effect] = *step;
-    result = measure(work, is_dear(effect), effects, &more, &change, &depth, report, error);
+    result = measure(work, effect, effects, &more, &change, &depth, report, error);
     bool good = matters(&change, work->options->effect_threshold);
     if (effects->setting[effect]) {
       found->next = change;
