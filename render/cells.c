@@ -188,7 +188,7 @@ static void sum_cut(struct cells *cells, const struct span *span, const float *c
     double weight[4][4] = {{0}}, gloss[4][4] = {{0}};
     int nodes = u->first[c + 1] - u->first[c],
         others = v->first[cells->row + 1] - v->first[cells->row];
-    int order = (nodes > others ? nodes : others) + 4;
+    int order = (nodes > others ? nodes : others) + 2;
     if (order > RULE_LARGEST_ORDER) order = RULE_LARGEST_ORDER;
     counts->nodes += (uint64_t)tangent_weights(kernel, &u->strips.strip[c], row, order, weight,
                                                kernel->shininess > 0 ? gloss : NULL);

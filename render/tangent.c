@@ -9,27 +9,27 @@
 /* The plane n_x x + n_y y = n_z as a line over the axis along which it changes less: the
  * other coordinate, `inner`, is a function of this one, `outer`, with a slope of at most 1. */
 struct cut {
-  const struct kernel *kernel;
+  struct kernel kernel;          /* turned, so that x is the inner axis */
   const struct strip *strips[2]; /* along x and y */
   int outer, inner;              /* 0 for x, 1 for y */
 };
 
 static double line(const struct cut *cut, double outer) {
-  const double *n = cut->kernel->normal;
-  return (n[2] - n[cut->outer] * outer) / n[cut->inner];
+  const double *n = cut->kernel.normal;
+  return (n[2] - n[1] * outer) / n[0];
 }
 
 /* Ascending outer limits of the trapezoids: the strip's ends and where the line crosses the
  * inner strip's. Returns how many. */
 static int limits(const struct cut *cut, double limit[4]) {
-  const double *n = cut->kernel->normal;
+  const double *n = cut->kernel.normal;
   const struct strip *outer = cut->strips[cut->outer], *inner = cut->strips[cut->inner];
   double cross[2];
   int count = 0;
   limit[count++] = outer->low;
-  if (n[cut->outer] != 0) {
+  if (n[1] != 0) {
     for (int side = 0; side < 2; ++side)
-      cross[side] = (n[2] - n[cut->inner] * (side ? inner->high : inner->low)) / n[cut->outer];
+      cross[side] = (n[2] - n[0] * (side ? inner->high : inner->low)) / n[1];
     double first = fmin(cross[0], cross[1]), second = fmax(cross[0], cross[1]);
     if (first > outer->low && first < outer->high) limit[count++] = first;
     if (second > limit[count - 1] && second < outer->high) limit[count++] = second;
@@ -38,11 +38,15 @@ static int limits(const struct cut *cut, double limit[4]) {
   return count;
 }
 
-/* weight[y][x] += value * v[y] u[x] */
-static void add(double weight[4][4], const double v[4], const double u[4], double value) {
+/* weight[y][x] += of[y] of[x]: the outer axis has its hats, the inner one their integrals. */
+static void add(const struct cut *cut, double weight[4][4], const double hats[4],
+                const double sums[4]) {
+  const double *u = cut->inner ? hats : sums, *v = cut->inner ? sums : hats;
   for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 4; ++x) weight[y][x] += value * v[y] * u[x];
+    for (int x = 0; x < 4; ++x) weight[y][x] += v[y] * u[x];
 }
+
+enum { ROOM = RULE_LARGEST_ORDER + SIMD_LANES };
 
 /* The inner integral at one outer node. */
 static int inner_nodes(const struct cut *cut, double outer, double share, int order,
@@ -50,32 +54,39 @@ static int inner_nodes(const struct cut *cut, double outer, double share, int or
   const struct strip *inner = cut->strips[cut->inner];
   const struct rule_gauss *gauss = rule_gauss(order);
   double at = fmin(fmax(line(cut, outer), inner->low), inner->high);
-  bool above = cut->kernel->normal[cut->inner] > 0;
+  bool above = cut->kernel.normal[0] > 0;
   double low = above ? at : inner->low, high = above ? inner->high : at;
   if (!(high > low)) return 0;
-  double hats[2][4], value[SIMD_LANES];
-  rule_hats(cut->strips[cut->outer], outer, hats[cut->outer]);
+  double hats[RULE_LARGEST_ORDER][4], outer_hats[4], slope[ROOM] = {0}, value[ROOM] = {0};
+  rule_hats(cut->strips[cut->outer], outer, outer_hats);
   for (int k = 0; k < order; ++k) {
-    double slope[2], x[SIMD_LANES] = {0};
-    slope[cut->outer] = outer;
-    slope[cut->inner] = low + gauss->at[k] * (high - low);
-    rule_hats(inner, slope[cut->inner], hats[cut->inner]);
-    double part = share * gauss->weight[k] * (high - low);
-    x[0] = slope[0];
-    kernel_matte(cut->kernel, x, slope[1], 1, value);
-    add(weight, hats[1], hats[0], part * fmax(value[0], 0));
-    if (!gloss) continue;
-    kernel_gloss(cut->kernel, x, slope[1], 1, value);
-    add(gloss, hats[1], hats[0], part * value[0]);
+    slope[k] = low + gauss->at[k] * (high - low);
+    rule_hats(inner, slope[k], hats[k]);
+  }
+  for (int light = 0; light < (gloss ? 2 : 1); ++light) {
+    double sums[4] = {0};
+    (light ? kernel_gloss : kernel_matte)(&cut->kernel, slope, outer, order, value);
+    for (int k = 0; k < order; ++k) {
+      if (!(value[k] > 0)) continue;
+      const double part = share * gauss->weight[k] * (high - low) * value[k];
+      for (int tap = 0; tap < 4; ++tap) sums[tap] += part * hats[k][tap];
+    }
+    add(cut, light ? gloss : weight, outer_hats, sums);
   }
   return order;
 }
 
 int tangent_weights(const struct kernel *kernel, const struct strip *u, const struct strip *v,
                     int order, double weight[4][4], double (*gloss)[4]) {
-  struct cut cut = {kernel, {u, v}, 0, 1};
-  if (fabs(kernel->normal[1]) < fabs(kernel->normal[0])) cut.outer = 1, cut.inner = 0;
-  if (kernel->normal[cut.inner] == 0) return 0; /* parallel: all of it or nothing, not cut */
+  const double *n = kernel->normal;
+  const int inner = fabs(n[1]) < fabs(n[0]) ? 0 : 1;
+  const struct cut cut = {{.normal = {n[inner], n[!inner], n[2]},
+                           .eye = {kernel->eye[inner], kernel->eye[!inner], kernel->eye[2]},
+                           .shininess = kernel->shininess},
+                          {u, v},
+                          !inner,
+                          inner};
+  if (n[inner] == 0) return 0; /* parallel: all of it or nothing, not cut */
   const struct rule_gauss *gauss = rule_gauss(order);
   double limit[4];
   int nodes = 0;
