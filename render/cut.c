@@ -25,40 +25,46 @@ static const double worth = 0.7, hopeless = 12;
 
 /* Light of a page below this share of the most that it sends to where the receiver is may err as
  * if it were that share; and what is aimed at, since all is estimated. */
-static const double least_share = 1e-4, margin = 0.75, clipped_margin = 0.4;
+static const double least_share = 1e-4, margin = 0.7, clipped_margin = 0.4;
 
 struct cut_work {
   struct cut_view view;
-  struct cut_views *views;     /* owned */
+  struct cut_views *views[CUT_TOGETHER]; /* owned */
+  double *irradiance[CUT_TOGETHER];      /* of those that wait */
+  int waiting;
   struct cut_node heap[NODES]; /* of the cut; the largest error first */
   int count;
   double light, bent, spread, square, cost; /* of the cut: sums of its nodes' */
   double tolerance;
-  bool views_do; /* all views at once are exact enough */
-  double budget; /* 0: not known yet */
+  int nodes;          /* of each view in a sum of all at once; 0: none is exact enough */
+  double nodes_error; /* predicted of that sum */
+  double budget;      /* 0: not known yet */
   uint64_t visited;
 };
 
 struct cut_work *cut_work_make(void) {
   struct cut_work *made = calloc(1, sizeof *made);
-  if (made) made->views = cut_views_make();
-  if (made && made->views) return made;
-  cut_work_free(made);
-  return NULL;
+  for (int k = 0; made && k < CUT_TOGETHER; ++k)
+    if (!(made->views[k] = cut_views_make())) {
+      cut_work_free(made);
+      return NULL;
+    }
+  return made;
 }
 
 void cut_work_free(struct cut_work *work) {
   if (!work) return;
   cut_view_free(&work->view);
-  cut_views_free(work->views);
+  for (int k = 0; k < CUT_TOGETHER; ++k) cut_views_free(work->views[k]);
   free(work);
 }
 
-/* What it costs otherwise: all views at once or, where these are not exact enough, the micro
- * lights, summed by pi or else by Gauss rules. */
-static double budget(const struct cut_work *work) {
+/* What it costs otherwise: all views at once, and with how many nodes; or, where these are not
+ * exact enough, the micro lights, summed by pi or else by Gauss rules. */
+static double find_budget(struct cut_work *work) {
   const struct cut_view *sees = &work->view;
-  if (work->views_do) return cut_views_price(sees->view);
+  work->nodes = cut_views_nodes(sees->view, work->tolerance, &work->nodes_error);
+  if (work->nodes > 0) return cut_views_price(sees->view, work->nodes);
   double strips[2], widest = 0;
   for (int axis = 0; axis < 2; ++axis) {
     const struct light_axis *along = &sees->view->page->axes[axis];
@@ -145,7 +151,7 @@ static bool refine(struct cut_work *work, double tolerance, double least, double
     const double light = work->light + more, error = error_sum(work);
     const double allowed = tolerance * (light > least ? light : least);
     if (error <= allowed) break;
-    if (work->budget == 0) work->budget = budget(work);
+    if (work->budget == 0) work->budget = find_budget(work);
     const struct cut_node top = work->heap[0];
     if (top.level == tree->levels - 1 || work->count + 4 > NODES) return false;
     const double matter = work->spread * work->spread / work->square;
@@ -196,7 +202,7 @@ static bool start(struct cut_work *work, double tolerance) {
   int count = (to[0] - from[0]) * (to[1] - from[1]);
   if (count > NODES) return false;
   if (count > 1) {
-    work->budget = budget(work);
+    work->budget = find_budget(work);
     if (count * node_price(work, number) > worth * work->budget) return false;
   }
   if (count >= 16 && !sample_hope(work, number, from, to, tolerance)) return false;
@@ -249,6 +255,12 @@ static bool sum_cut(struct cut_work *work, double floor, double irradiance[3], d
   return false;
 }
 
+void cut_finish(struct cut_work *work) {
+  cut_views_sum(work->views, work->waiting);
+  for (int k = 0; k < work->waiting; ++k) cut_views_light(work->views[k], work->irradiance[k]);
+  work->waiting = 0;
+}
+
 bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolerance, double floor,
              struct cut_work *work, double irradiance[3], struct cut_counts *counts) {
   if (view->kernel.shininess > 0 || !(view->height > 0) || !above(view)) return false;
@@ -258,16 +270,18 @@ bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolera
   work->visited = 0;
   work->tolerance = tolerance;
   work->budget = 0;
-  const double error = cut_views_error(view);
-  work->views_do = error <= tolerance;
   if (sum_cut(work, floor, irradiance, &counts->error)) {
     counts->nodes += (uint64_t)work->count;
     counts->visited += work->visited;
     return true;
   }
-  if (!work->views_do || !cut_views_sum(tree, view, work->views, irradiance)) return false;
-  counts->views +=
-      (uint64_t)view->page->axes[0].near_count * (uint64_t)view->page->axes[1].near_count;
-  counts->error = error;
+  if (work->budget == 0) find_budget(work);
+  if (work->waiting == CUT_TOGETHER) cut_finish(work);
+  if (work->nodes == 0 || !cut_views_prepare(tree, view, work->nodes, work->views[work->waiting]))
+    return false;
+  work->irradiance[work->waiting++] = irradiance;
+  counts->views += (uint64_t)(work->nodes * view->page->axes[0].near_count) *
+                   (uint64_t)(work->nodes * view->page->axes[1].near_count);
+  counts->error = work->nodes_error;
   return true;
 }

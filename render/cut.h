@@ -13,10 +13,10 @@
  * node's view of st; what the kernel's expansion leaves out.
  *
  * Where that takes more than all views at once (cut_views.h), and these are exact enough, they are
- * summed instead. The micro lights do it, and cut_sum returns false, for glossy receivers, where
- * the tangent plane cuts the aperture, and near the aperture, where neither is exact enough or any
- * faster. Finding that out can cost a fifth of the micro lights. All of them keep the tolerance, so
- * nothing is seen where one hands over to another.
+ * summed instead: so it is near the aperture. The micro lights do it, and cut_sum returns false,
+ * for glossy receivers, where the tangent plane cuts the aperture, and at the aperture, where
+ * neither is exact enough or any faster. Finding that out can cost a fifth of the micro lights. All
+ * of them keep the tolerance, so nothing is seen where one hands over to another.
  *
  * The error of a page's light: the largest of the channels' absolute errors, relative to the
  * largest channel, or to 1e-4 of the most that the page can send to the receiver's height,
@@ -46,18 +46,21 @@ double cut_bytes(const struct cut_tree *tree);
 struct cut_counts {
   uint64_t nodes;   /* summed */
   uint64_t visited; /* looked at */
-  uint64_t views;   /* summed all at once, see cut_views.h */
+  uint64_t views;   /* summed all at once, see cut_views.h: their nodes */
   double error;     /* predicted, of the last sum */
 };
 
-/* Scratch memory of one thread. */
+/* Scratch memory of one thread. So many sums wait for each other. */
+enum { CUT_TOGETHER = 16 };
 struct cut_work;
 struct cut_work *cut_work_make(void);      /* NULL: no memory */
 void cut_work_free(struct cut_work *work); /* NULL allowed */
 
 /* The light of the page of the tree, for a receiver who sees all of it. False: not done, the micro
- * lights do it better. `floor` is an irradiance, or 0. */
+ * lights do it better. `floor` is an irradiance, or 0. Sums over all views at once wait for each
+ * other: `irradiance` is written by cut_finish, at the latest. */
 bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolerance, double floor,
              struct cut_work *work, double irradiance[3], struct cut_counts *counts);
+void cut_finish(struct cut_work *work);
 
 #endif

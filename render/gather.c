@@ -33,6 +33,11 @@ struct gather {
   struct cut_work *cut; /* NULL until it is needed; owned */
   struct cut_counts cut_counts;
   int cut_asked, cut_taken; /* receivers of this tile and page */
+  struct {
+    int receiver;
+    double irradiance[3];
+  } by_cut[TOGETHER];
+  int by_cut_count;
   struct cells_scratch scratch;
   struct cells sums[TOGETHER];
   int receiver[TOGETHER]; /* whose sum it is */
@@ -300,21 +305,28 @@ static bool cut_is_hopeless(const struct gather *gather) {
   return gather->cut_asked >= 4 && 4 * gather->cut_taken < gather->cut_asked;
 }
 
+static void add_cuts(struct gather *gather, double gain, struct gathered *gathered) {
+  static const double gloss[3];
+  if (gather->cut) cut_finish(gather->cut);
+  for (int k = 0; k < gather->by_cut_count; ++k)
+    add(&gathered[gather->by_cut[k].receiver], gather->by_cut[k].irradiance, gloss, gain);
+  gather->by_cut_count = 0;
+}
+
 /* By the method cut, if there are trees and it takes this receiver. */
 static bool take_cut(struct gather *gather, const struct look *look, const struct view *view,
                      struct gathered *gathered) {
   const struct gather_aids *aids = gather->settings->aids;
-  double irradiance[3];
-  static const double gloss[3];
   if (!aids || !aids->trees || cut_is_hopeless(gather)) return false;
   if (!gather->cut) gather->cut = cut_work_make();
   if (!gather->cut) return false; /* no memory: the micro lights need less */
+  if (gather->by_cut_count == TOGETHER) add_cuts(gather, look->light->gain, gathered);
   ++gather->cut_asked;
   if (!cut_sum(aids->trees[look->page_number], view, gather->settings->tolerance, 0, gather->cut,
-               irradiance, &gather->cut_counts))
+               gather->by_cut[gather->by_cut_count].irradiance, &gather->cut_counts))
     return false;
   ++gather->cut_taken;
-  add(&gathered[look->index], irradiance, gloss, look->light->gain);
+  gather->by_cut[gather->by_cut_count++].receiver = look->index;
   note_error(gather, look, gather->cut_counts.error, gathered);
   return true;
 }
@@ -391,7 +403,7 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
   const struct gather_settings *settings = gather->settings;
   enum slab_result result = SLAB_OK;
   memset(gathered, 0, (size_t)count * sizeof *gathered);
-  gather->waiting = 0;
+  gather->waiting = gather->by_cut_count = 0;
   for (int l = 0, number = 0; l < settings->light_count; ++l) {
     const struct light *light = &settings->lights[l];
     for (int page = 0; page < light->count && result == SLAB_OK; ++page, ++number) {
@@ -401,6 +413,7 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
         const struct look look = {light, &light->pages[page], number, shadows, &receivers[k], k};
         result = take_look(gather, &look, gathered, error);
       }
+      add_cuts(gather, light->gain, gathered);
       if (result == SLAB_OK) result = take_sums(gather, light->gain, gathered, error);
     }
   }
