@@ -11,7 +11,7 @@ cd effects
 # small NAME LAMP EFFECTS: few rays, since every effect at once costs hours.
 small() {
   rm -rf "$1.exr" "$1.exr.partial"
-  spend "$1" "$BAKESLAB" bake "$root/lamps/$2.pov" -o "$1.exr" --uv 2 --st 12 --rays 2 --jobs 1 --effects "$3"
+  spend "$1" "$BAKESLAB" bake "$root/lamps/$2.pov" -o "$1.exr" --uv 4 --st 16 --rays 2 --effects "$3"
 }
 # decided FILE: effects that are on, with their settings.
 decided() {
