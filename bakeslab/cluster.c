@@ -43,7 +43,7 @@ double cluster_worst_error(const struct cluster *cluster) {
 /* One page on the way: what it is fitted to. */
 struct work {
   const struct slab *slab;
-  struct cluster_target target;
+  struct cluster_target target, gauge; /* to fit to; to tell the error by */
   struct cluster_light *candidates;
   int candidate_count;
   double unit;
@@ -54,16 +54,6 @@ static enum slab_result grow_page(const struct work *work, int wanted, struct cl
   enum slab_result result = cluster_grow(&work->target, work->candidates, work->candidate_count,
                                          page->lights, &page->count, wanted, error);
   return result == SLAB_OK ? cluster_fit(&work->target, page->lights, &page->count, error) : result;
-}
-
-/* The error of lights that are in the target's units still. */
-static double error_on_the_way(const struct work *work, const struct cluster_page *page,
-                               double distance) {
-  struct cluster_light lights[CLUSTER_MOST_LIGHTS];
-  memcpy(lights, page->lights, (size_t)page->count * sizeof *lights);
-  for (int k = 0; k < page->count; ++k)
-    for (int c = 0; c < 3; ++c) lights[k].rgb[c] *= work->unit;
-  return cluster_error(work->slab, lights, page->count, distance);
 }
 
 /* The lights for good: in the slab's units, with their errors. */
@@ -80,9 +70,15 @@ static enum slab_result finish_page(const struct work *work, int number, double 
                      "page %d: it is brighter than POV-Ray's light colours hold (1e37); use a "
                      "larger radiance unit",
                      number + 1);
-  for (int d = 0; d < CLUSTER_DISTANCES; ++d)
-    page->error[d] = cluster_error(work->slab, page->lights, page->count, cluster_distances[d]);
-  page->error_at = cluster_error(work->slab, page->lights, page->count, distance);
+  for (int d = 0; d < CLUSTER_DISTANCES; ++d) {
+    struct cluster_target gauge;
+    page->error[d] = page->error_at;
+    if (cluster_distances[d] == distance) continue;
+    enum slab_result result = cluster_gauge_make(work->slab, cluster_distances[d], &gauge, error);
+    if (result == SLAB_OK) page->error[d] = cluster_error(&gauge, page->lights, page->count, 1);
+    cluster_target_free(&gauge);
+    if (result != SLAB_OK) return result;
+  }
   page->frame = *work->slab;
   page->frame.rgb = NULL;
   page->frame.json = NULL;
@@ -90,21 +86,33 @@ static enum slab_result finish_page(const struct work *work, int number, double 
   return SLAB_OK;
 }
 
-/* Grows a page up to `lights`; or, where that is 0, until it meets the tolerance, as
- * long as twice the lights help. */
-static enum slab_result grow(const struct work *work, int lights, double tolerance, double distance,
+/* Grows a page up to `lights`, or, where that is 0, until it meets the tolerance or twice
+ * the lights help no more; keeps the best on the way. */
+static enum slab_result grow(const struct work *work, int lights, double tolerance,
                              struct cluster_page *page, struct slab_error *error) {
   int most = lights > 0 ? lights : CLUSTER_MOST_LIGHTS;
-  double best = INFINITY;
-  for (int wanted = 1, idle = 0;; wanted = 2 * wanted < most ? 2 * wanted : most) {
-    enum slab_result result = grow_page(work, wanted, page, error);
-    if (wanted >= most || result != SLAB_OK) return result;
+  struct cluster_page now = {.count = 0};
+  now.lights = calloc((size_t)most, sizeof *now.lights);
+  if (!now.lights) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  enum slab_result result = SLAB_OK;
+  page->error_at = INFINITY;
+  for (int wanted = 1, idle = 0; result == SLAB_OK;
+       wanted = 2 * wanted < most ? 2 * wanted : most) {
+    result = grow_page(work, wanted, &now, error);
+    if (result != SLAB_OK) break;
+    double reached = cluster_error(&work->gauge, now.lights, now.count, work->unit);
+    idle = reached < least_help * page->error_at ? 0 : idle + 1;
+    if (reached < page->error_at) {
+      memcpy(page->lights, now.lights, (size_t)now.count * sizeof *now.lights);
+      page->count = now.count;
+      page->error_at = reached;
+    }
+    if (wanted >= most) break;
     if (lights > 0) continue;
-    double reached = error_on_the_way(work, page, distance);
-    idle = reached < least_help * best ? 0 : idle + 1;
-    best = fmin(best, reached);
-    if (reached <= tolerance || (idle >= 2 && reached > 2 * tolerance)) return result;
+    if (reached <= tolerance || (idle >= 2 && reached > 2 * tolerance)) break;
   }
+  free(now.lights);
+  return result;
 }
 
 static enum slab_result make_page(const struct slab *slab, int number, int lights, double tolerance,
@@ -115,12 +123,14 @@ static enum slab_result make_page(const struct slab *slab, int number, int light
   enum slab_result result = page->lights ? SLAB_OK : slab_fail(error, SLAB_MEMORY, "out of memory");
   if (result == SLAB_OK)
     result = cluster_target_make(slab, distance, &work.unit, &work.target, error);
+  if (result == SLAB_OK) result = cluster_gauge_make(slab, distance, &work.gauge, error);
   if (result == SLAB_OK)
     result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
-  if (result == SLAB_OK) result = grow(&work, lights, tolerance, distance, page, error);
+  if (result == SLAB_OK) result = grow(&work, lights, tolerance, page, error);
   if (result == SLAB_OK) result = finish_page(&work, number, distance, page, error);
   free(work.candidates);
   cluster_target_free(&work.target);
+  cluster_target_free(&work.gauge);
   return result;
 }
 

@@ -19,6 +19,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "plane.h"
 #include "slab.h"
 
 enum {
@@ -75,11 +76,29 @@ double cluster_worst_error(const struct cluster *cluster); /* at its distance, o
 double cluster_irradiance(const struct cluster_light *light, const double at[3]);
 double cluster_flux(const struct cluster_light *light);
 
+/* The numbers that a fit changes: beside centre and axis, the logarithms of factors of
+ * both edges and of 1 + tightness, cos_falloff, and the soft edge's share of the cone,
+ * (cos_radius - cos_falloff) / (1 - cos_falloff). */
+enum {
+  CLUSTER_CENTER,
+  CLUSTER_SCALE = CLUSTER_CENTER + 2,
+  CLUSTER_AXIS = CLUSTER_SCALE + 2,
+  CLUSTER_TIGHTNESS = CLUSTER_AXIS + 2,
+  CLUSTER_FALLOFF,
+  CLUSTER_SOFTNESS,
+  CLUSTER_NUMBERS
+};
+
+/* cluster_slopes.c: derivatives of cluster_irradiance by them. */
+void cluster_slopes(const struct cluster_light *light, const double at[3],
+                    double slopes[CLUSTER_NUMBERS]);
+
 /* What lights are fitted to: receivers, and the flux as a last one. */
 struct cluster_target {
   double edge[2];   /* of the aperture */
   double slopes[4]; /* the window, as seen from its centre */
   int count;        /* of receivers, without the flux */
+  double narrowest; /* lobe that the receivers see, radians: their coarsest step */
   double (*at)[3];  /* owned */
   double (*rgb)[3]; /* irradiance, count + 1; owned */
   double *weight;   /* count + 1; owned */
@@ -90,6 +109,20 @@ struct cluster_target {
 enum slab_result cluster_target_make(const struct slab *slab, double distance, double *unit,
                                      struct cluster_target *target, struct slab_error *error);
 void cluster_target_free(struct cluster_target *target);
+
+/* An empty target with room for so many receivers; and a plane's receivers added to it, at
+ * equal angles, whose squared irradiance, times the weights', sums to the weight's. */
+enum slab_result cluster_target_room(int count, struct cluster_target *target,
+                                     struct slab_error *error);
+void cluster_target_add(const struct slab *slab, const struct plane *plane, double weight,
+                        struct cluster_target *target);
+
+/* cluster_error.c: the relative RMSE of lights, their rgb in units of `unit`, on the whole
+ * plane at a distance: on many receivers, none of which the lights were fitted to. */
+enum slab_result cluster_gauge_make(const struct slab *slab, double distance,
+                                    struct cluster_target *gauge, struct slab_error *error);
+double cluster_error(const struct cluster_target *gauge, const struct cluster_light *lights,
+                     int count, double unit);
 
 /* cluster_light.c: what a light of rgb 1 gives to each receiver, times its weight, and
  * to the flux; count + 1 numbers, `step` apart. */
@@ -110,10 +143,6 @@ void cluster_system_free(struct cluster_system *system);
  * `base` is a table of the lights' rows: a row of the target a line. */
 double cluster_solve(const struct cluster_target *target, struct cluster_system *system,
                      const double *base);
-
-/* Relative RMSE of the lights' irradiance on the plane at `distance`. */
-double cluster_error(const struct slab *slab, const struct cluster_light *lights, int count,
-                     double distance);
 
 /* cluster_seed.c: candidates for lights: groups of the slab's cells, many and few,
  * with lobes narrower and wider; their rgb is nothing. `candidates` is owned by

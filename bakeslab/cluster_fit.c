@@ -13,14 +13,15 @@
 #include "cluster.h"
 #include "least.h"
 
+/* Beside what cluster_slopes knows, a step has the light's gain. */
 enum {
-  CENTER,
-  SCALE = CENTER + 2,
-  AXIS = SCALE + 2,
-  TIGHTNESS = AXIS + 2,
-  FALLOFF,
-  SOFTNESS,
-  GAIN,
+  CENTER = CLUSTER_CENTER,
+  SCALE = CLUSTER_SCALE,
+  AXIS = CLUSTER_AXIS,
+  TIGHTNESS = CLUSTER_TIGHTNESS,
+  FALLOFF = CLUSTER_FALLOFF,
+  SOFTNESS = CLUSTER_SOFTNESS,
+  GAIN = CLUSTER_NUMBERS,
   NUMBERS
 };
 
@@ -29,8 +30,9 @@ enum { MOST_STEPS = 60 };
 /* A fit ends when a step gains less than this of the squared error. */
 static const double least_gain = 3e-4;
 
-/* A lobe's limits: of tightness, of a cone's width, of a soft edge's share of it. */
-static const double most_tightness = 5e3, least_cone = 1e-4, least_softness = 0.03;
+/* Cones are at least so many times the narrowest lobe that the receivers see, their soft
+ * edges so many. */
+static const double least_cone = 2, least_edge = 1;
 
 /* One light as the fit sees it. */
 struct numbers {
@@ -80,6 +82,16 @@ static double between(double x, double low, double high) {
   return x < low ? low : x > high ? high : x;
 }
 
+/* Keeps a lobe wide and soft enough to be seen, and before the aperture: cos_falloff is at
+ * least `behind`. */
+static void limit_lobe(double narrowest, double behind, struct numbers *n) {
+  n->x[TIGHTNESS] = between(n->x[TIGHTNESS], 0, log1p(1 / (narrowest * narrowest)));
+  n->x[FALLOFF] = fmax(fmin(n->x[FALLOFF], cos(least_cone * narrowest)), behind);
+  double falloff = acos(n->x[FALLOFF]), radius = fmax(falloff - least_edge * narrowest, 0);
+  n->x[SOFTNESS] =
+      between(n->x[SOFTNESS], (cos(radius) - n->x[FALLOFF]) / (1 - n->x[FALLOFF]), 1);
+}
+
 /* Keeps a light on the aperture, its axis in the window, its lobe a lobe. */
 static void limit(const struct cluster_target *target, const struct cluster_light *seed,
                   struct numbers *n) {
@@ -102,9 +114,7 @@ static void limit(const struct cluster_target *target, const struct cluster_ligh
     double room = fmax(target->edge[c] - extent, 0) / 2;
     n->x[CENTER + c] = between(n->x[CENTER + c], -room, room);
   }
-  n->x[TIGHTNESS] = between(n->x[TIGHTNESS], 0, log1p(most_tightness));
-  n->x[FALLOFF] = between(n->x[FALLOFF], tilt / sqrt(1 + tilt * tilt), 1 - least_cone);
-  n->x[SOFTNESS] = between(n->x[SOFTNESS], least_softness, 1);
+  limit_lobe(target->narrowest, tilt / sqrt(1 + tilt * tilt), n);
 }
 
 /* What light `k` gives to each row, `step` apart in the table. */
@@ -114,26 +124,38 @@ static void fill(const struct fit *f, int k, const struct numbers *n, double *ta
   cluster_rows(f->target, &light, table, (size_t)step);
 }
 
+/* Of the flux, which only the lobe changes, by differences. */
+static void flux_slopes(const struct fit *f, int k, double slopes[GAIN]) {
+  static const double apart = 1e-5;
+  double weight = f->target->weight[f->target->count];
+  struct cluster_light light, moved;
+  to_light(&f->now[k], &f->seeds[k], &light);
+  memset(slopes, 0, GAIN * sizeof *slopes);
+  for (int p = TIGHTNESS; p < GAIN; ++p) {
+    struct numbers n = f->now[k];
+    double step = p == TIGHTNESS ? apart : -apart * (1 - n.x[FALLOFF]);
+    n.x[p] += step;
+    to_light(&n, &f->seeds[k], &moved);
+    slopes[p] = weight * (cluster_flux(&moved) - cluster_flux(&light)) / step;
+  }
+}
+
 static void fill_slopes(struct fit *f) {
-  static const double steps[GAIN] = {1e-4, 1e-4, 1e-3, 1e-3, 1e-5, 1e-5, 1e-4, 1e-4, -1e-4};
   size_t width = (size_t)f->count * NUMBERS;
-  for (int k = 0; k < f->count; ++k)
-    for (int p = 0; p < NUMBERS; ++p) {
-      double *table = f->slopes + k * NUMBERS + p;
-      if (p == GAIN) {
-        for (int r = 0; r < f->rows; ++r)
-          table[(size_t)r * width] = f->base_now[(size_t)r * (size_t)f->count + (size_t)k];
+  for (int k = 0; k < f->count; ++k) {
+    struct cluster_light light;
+    to_light(&f->now[k], &f->seeds[k], &light);
+    for (int r = 0; r < f->rows; ++r) {
+      double *row = f->slopes + (size_t)r * width + (size_t)k * NUMBERS;
+      row[GAIN] = f->base_now[(size_t)r * (size_t)f->count + (size_t)k];
+      if (r == f->target->count) {
+        flux_slopes(f, k, row);
         continue;
       }
-      struct numbers moved = f->now[k];
-      double apart = steps[p] * (p == FALLOFF ? 1 - moved.x[p] : 1);
-      moved.x[p] += apart;
-      fill(f, k, &moved, table, (int)width);
-      for (int r = 0; r < f->rows; ++r) {
-        double *value = &table[(size_t)r * width];
-        *value = (*value - f->base_now[(size_t)r * (size_t)f->count + (size_t)k]) / apart;
-      }
+      cluster_slopes(&light, f->target->at[r], row);
+      for (int p = 0; p < GAIN; ++p) row[p] *= f->target->weight[r];
     }
+  }
 }
 
 static double try_numbers(struct fit *f, const struct numbers *numbers) {

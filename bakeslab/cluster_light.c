@@ -11,7 +11,7 @@ enum { LOBE_NODES = 12, LOBE_PIECES = 12 };
 
 static double lobe(const struct cluster_light *light, double cosine) {
   if (cosine <= light->cos_falloff) return 0;
-  double value = light->tightness > 0 ? pow(cosine, light->tightness) : 1;
+  double value = exp(light->tightness * log(cosine));
   if (cosine >= light->cos_radius) return value;
   double p = (cosine - light->cos_falloff) / (light->cos_radius - light->cos_falloff);
   return value * p * p * (3 - 2 * p);

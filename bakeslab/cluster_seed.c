@@ -22,6 +22,10 @@ static const double widths[WIDTHS] = {0.7, 1, 1.5};
 /* Share of a group's energy that its parallelogram may leave out. */
 static const double trimmed = 0.02;
 
+/* Points of a light are at most so many widths apart; and are not seen one by one at this
+ * distance. */
+static const double most_apart = 0.25, near = 1.5;
+
 struct cell {
   double x[4], energy;
   int place, group; /* index of its uv sample, of its group */
@@ -202,13 +206,21 @@ static void set_lobe(const struct moments *m, const struct slab *slab, double di
   light->cos_radius = light->cos_falloff + 0.5 * (1 - light->cos_falloff);
 }
 
-static int points_at(struct cluster_light *lights, int count, double step) {
+/* Points an aperture width apart throw spots that far apart; a lobe blurs those that are
+ * less apart than it is wide, at `near` widths. */
+static double points_apart(const struct cluster_light *light) {
+  double cone = acos(light->cos_falloff) / 2, lobe = 1 / sqrt(fmax(light->tightness, 1));
+  return fmin(most_apart, near * fmin(cone, lobe));
+}
+
+static int points_at(struct cluster_light *lights, int count, double wider) {
   int points = 0;
   for (int g = 0; g < count; ++g) {
+    double apart = wider * points_apart(&lights[g]);
     for (int k = 0; k < 2; ++k) {
       double length = hypot(lights[g].edge[k][0], lights[g].edge[k][1]);
       lights[g].size[k] = 1;
-      while (lights[g].size[k] * step < 0.99 * length) lights[g].size[k] *= 2;
+      while (lights[g].size[k] * apart < 0.99 * length) lights[g].size[k] *= 2;
     }
     points += lights[g].size[0] * lights[g].size[1];
   }
@@ -216,10 +228,8 @@ static int points_at(struct cluster_light *lights, int count, double step) {
 }
 
 void cluster_set_sizes(struct cluster_light *lights, int count) {
-  double step = 0.25;
-  for (int points = points_at(lights, count, step); points > CLUSTER_MOST_SAMPLES && points > count;
-       points = points_at(lights, count, step))
-    step *= 1.25;
+  double wider = 1;
+  while (points_at(lights, count, wider) > CLUSTER_MOST_SAMPLES && wider < 1e3) wider *= 1.1;
 }
 
 /* Lights for the groups of one level. */

@@ -16,7 +16,7 @@ static const double shares[PLANES] = {0.25, 0.5, 1, 2, 4},
 
 /* Receivers an axis: different numbers, so that together they see the far field at many
  * more directions than one plane does, and no lobe hides between them. */
-static const int receivers[PLANES] = {16, 20, 26, 23, 29};
+static const int receivers[PLANES] = {22, 22, 28, 26, 30};
 
 /* Beyond what the slab lights, lights must be dark. */
 static const double margin = 1.25;
@@ -24,40 +24,51 @@ static const double margin = 1.25;
 /* The flux counts as much as this many planes. */
 static const double flux_weight = 5;
 
-static void add_plane(const struct slab *slab, const struct plane *plane, double weight,
-                      struct cluster_target *target) {
+void cluster_target_add(const struct slab *slab, const struct plane *plane, double weight,
+                        struct cluster_target *target) {
   double width = plane_width(slab), square = 0;
   int first = target->count;
+  /* Half as many as the sheet's errors need, which are ten times smaller. */
+  const int points[2] = {plane->points[0] / 2, plane->points[1] / 2};
   for (int row = 0; row < plane->receivers; ++row)
     for (int column = 0; column < plane->receivers; ++column) {
       int k = target->count++;
-      double at[2];
-      plane_receiver(plane, column, row, at);
-      plane_irradiance(slab, plane->points, at, plane->distance, target->rgb[k]);
+      double at[2], area = plane_fan(plane, column + 0.5, row + 0.5, at);
+      plane_irradiance(slab, points, at, plane->distance, target->rgb[k]);
       for (int c = 0; c < 2; ++c) target->at[k][c] = at[c] / width;
       target->at[k][2] = plane->distance / width;
-      for (int c = 0; c < 3; ++c) square += target->rgb[k][c] * target->rgb[k][c];
+      target->weight[k] = sqrt(area);
+      for (int c = 0; c < 3; ++c) square += area * target->rgb[k][c] * target->rgb[k][c];
     }
   for (int k = first; k < target->count; ++k)
-    target->weight[k] = square > 0 ? weight / sqrt(square) : 0;
+    target->weight[k] *= square > 0 ? weight / sqrt(square) : 0;
 }
 
-enum slab_result cluster_target_make(const struct slab *slab, double distance, double *unit,
-                                     struct cluster_target *target, struct slab_error *error) {
-  size_t room = 1;
-  double width = plane_width(slab), most = 0;
+enum slab_result cluster_target_room(int count, struct cluster_target *target,
+                                     struct slab_error *error) {
+  size_t room = (size_t)count + 1;
   memset(target, 0, sizeof *target);
-  for (int p = 0; p < PLANES; ++p) room += (size_t)(receivers[p] * receivers[p]);
-  for (int k = 0; k < 2; ++k) target->edge[k] = plane_edge(slab, k) / width;
-  memcpy(target->slopes, slab->st_window, sizeof target->slopes);
   target->at = calloc(room, sizeof *target->at);
   target->rgb = calloc(room, sizeof *target->rgb);
   target->weight = calloc(room, sizeof *target->weight);
   if (!target->at || !target->rgb || !target->weight)
     return slab_fail(error, SLAB_MEMORY, "out of memory");
+  return SLAB_OK;
+}
+
+enum slab_result cluster_target_make(const struct slab *slab, double distance, double *unit,
+                                     struct cluster_target *target, struct slab_error *error) {
+  int room = 0;
+  double width = plane_width(slab), most = 0;
+  for (int p = 0; p < PLANES; ++p) room += receivers[p] * receivers[p];
+  enum slab_result result = cluster_target_room(room, target, error);
+  if (result != SLAB_OK) return result;
+  for (int k = 0; k < 2; ++k) target->edge[k] = plane_edge(slab, k) / width;
+  memcpy(target->slopes, slab->st_window, sizeof target->slopes);
   for (int p = 0; p < PLANES; ++p) {
     struct plane plane = plane_make(slab, shares[p] * distance * width, margin, receivers[p]);
-    add_plane(slab, &plane, weights[p], target);
+    cluster_target_add(slab, &plane, weights[p], target);
+    target->narrowest = fmax(target->narrowest, plane_fan_step(&plane));
   }
   double *flux = target->rgb[target->count];
   slab_flux(slab, flux);
@@ -79,24 +90,4 @@ void cluster_target_free(struct cluster_target *target) {
   free(target->rgb);
   free(target->weight);
   memset(target, 0, sizeof *target);
-}
-
-double cluster_error(const struct slab *slab, const struct cluster_light *lights, int count,
-                     double distance) {
-  double width = plane_width(slab), error = 0, size = 0;
-  struct plane plane = plane_make(slab, distance * width, margin, 0);
-  for (int row = 0; row < plane.receivers; ++row)
-    for (int column = 0; column < plane.receivers; ++column) {
-      double at[2], exact[3];
-      plane_receiver(&plane, column, row, at);
-      plane_irradiance(slab, plane.points, at, plane.distance, exact);
-      const double place[3] = {at[0] / width, at[1] / width, distance};
-      for (int c = 0; c < 3; ++c) size += exact[c] * exact[c];
-      for (int k = 0; k < count; ++k) {
-        double share = cluster_irradiance(&lights[k], place);
-        for (int c = 0; c < 3; ++c) exact[c] -= lights[k].rgb[c] * share;
-      }
-      for (int c = 0; c < 3; ++c) error += exact[c] * exact[c];
-    }
-  return size > 0 ? sqrt(error / size) : 0;
 }

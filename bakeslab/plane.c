@@ -68,3 +68,31 @@ void plane_receiver(const struct plane *plane, int column, int row, double at[2]
   at[0] = plane->low[0] + (column + 0.5) / plane->receivers * plane->size[0];
   at[1] = plane->low[1] + (row + 0.5) / plane->receivers * plane->size[1];
 }
+
+/* Angle at which the lit part begins along an axis, and how far it reaches. */
+static void fan_angles(const struct plane *plane, int axis, double *low, double *reach) {
+  *low = atan(plane->low[axis] / plane->distance);
+  *reach = atan((plane->low[axis] + plane->size[axis]) / plane->distance) - *low;
+}
+
+double plane_fan(const struct plane *plane, double column, double row, double at[2]) {
+  double area = 1, cells[2] = {column, row};
+  for (int k = 0; k < 2; ++k) {
+    double low, reach;
+    fan_angles(plane, k, &low, &reach);
+    double slope = tan(low + cells[k] / plane->receivers * reach);
+    at[k] = plane->distance * slope;
+    area *= plane->distance * (1 + slope * slope) * reach / plane->receivers;
+  }
+  return area;
+}
+
+double plane_fan_step(const struct plane *plane) {
+  double widest = 0;
+  for (int k = 0; k < 2; ++k) {
+    double low, reach;
+    fan_angles(plane, k, &low, &reach);
+    widest = fmax(widest, reach / plane->receivers);
+  }
+  return widest;
+}

@@ -23,6 +23,14 @@ struct plane plane_make(const struct slab *slab, double distance, double margin,
 
 void plane_receiver(const struct plane *plane, int column, int row, double at[2]);
 
+/* The same number of receivers at equal angles as seen from the aperture's middle, closer
+ * together where light is bright; (column, row) count cells, the first's middle is (0.5, 0.5).
+ * Returns the area of the plane that a cell stands for there. */
+double plane_fan(const struct plane *plane, double column, double row, double at[2]);
+
+/* Largest angle between neighbours of a fan, in radians. */
+double plane_fan_step(const struct plane *plane);
+
 /* Irradiance at (x, y, distance) of points[0] x points[1] point lights on the
  * middles of as many cells of the aperture. */
 void plane_irradiance(const struct slab *slab, const int points[2], const double at[2],
