@@ -53,7 +53,12 @@ static enum slab_result grow_page(const struct work *work, int wanted, struct cl
                                   struct slab_error *error) {
   enum slab_result result = cluster_grow(&work->target, work->candidates, work->candidate_count,
                                          page->lights, &page->count, wanted, error);
-  return result == SLAB_OK ? cluster_fit(&work->target, page->lights, &page->count, error) : result;
+  /* The second time with the points that the lights then need. */
+  for (int times = 0; times < 2 && result == SLAB_OK; ++times) {
+    cluster_set_sizes(page->lights, page->count, CLUSTER_MOST_SAMPLES);
+    result = cluster_fit(&work->target, page->lights, &page->count, error);
+  }
+  return result;
 }
 
 /* The lights for good: in the slab's units, with their errors. */
@@ -126,6 +131,8 @@ static enum slab_result make_page(const struct slab *slab, int number, int light
   if (result == SLAB_OK) result = cluster_gauge_make(slab, distance, &work.gauge, error);
   if (result == SLAB_OK)
     result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
+  for (int k = 0; k < work.candidate_count && result == SLAB_OK; ++k)
+    cluster_limit(&work.target, &work.candidates[k]);
   if (result == SLAB_OK) result = grow(&work, lights, tolerance, page, error);
   if (result == SLAB_OK) result = finish_page(&work, number, distance, page, error);
   free(work.candidates);
@@ -189,6 +196,11 @@ enum slab_result cluster_make(const struct slab *slabs, int count, int lights, d
   }
   cluster->black_pages = count - lit_count;
   if (!lit_count) return include_no_light(error);
+  if (lights > lit_count * CLUSTER_MOST_LIGHTS)
+    return slab_fail(error, SLAB_BAD,
+                     "%d lights are too many for a cluster, which has at most %d for each page "
+                     "with light; ask for --lights %d",
+                     lights, CLUSTER_MOST_LIGHTS, lit_count * CLUSTER_MOST_LIGHTS);
   if (lights > 0) share_lights(slabs, lit, lit_count, lights, shares);
   cluster->pages = calloc((size_t)lit_count, sizeof *cluster->pages);
   if (!cluster->pages) return slab_fail(error, SLAB_MEMORY, "out of memory");

@@ -57,10 +57,11 @@ struct cluster {
   uint64_t stamp;  /* hash of all that the include says of the lights */
 };
 
-/* Fits the pages of one lamp with `lights` lights in all, but at least one a
- * page; or, where `lights` is 0, with as few as meet `tolerance` (relative RMSE)
- * at `distance` on each page. Where none do, or more do not help, the pages' errors
- * say so. Refuses negative radiance and lamps without light. Free with
+/* Fits the pages of one lamp with at most `lights` lights in all, but at least one a
+ * page, and fewer where they fit better; or, where `lights` is 0, with as few as meet
+ * `tolerance` (relative RMSE) at `distance` on each page. Where none do, the pages'
+ * errors say so. Refuses negative radiance, lamps without light and more lights than
+ * CLUSTER_MOST_LIGHTS for each page with light. Free with
  * cluster_free, also after a failure. */
 enum slab_result cluster_make(const struct slab *slabs, int count, int lights, double tolerance,
                               double distance, struct cluster *cluster, struct slab_error *error);
@@ -151,8 +152,9 @@ enum slab_result cluster_seed(const struct slab *slab, double distance,
                               struct cluster_light **candidates, int *count,
                               struct slab_error *error);
 
-/* Points along the lights' edges: close enough for soft shadows, and affordable. */
-void cluster_set_sizes(struct cluster_light *lights, int count);
+/* Points along the lights' edges: close enough for soft shadows, and at most so many in
+ * all, but one for each light. */
+void cluster_set_sizes(struct cluster_light *lights, int count, int most);
 
 /* cluster_grow.c: adds those candidates that explain most of what the lights leave
  * of the target, until there are `wanted`. `lights`
@@ -161,6 +163,9 @@ enum slab_result cluster_grow(const struct cluster_target *target,
                               const struct cluster_light *candidates, int candidate_count,
                               struct cluster_light *lights, int *count, int wanted,
                               struct slab_error *error);
+
+/* cluster_fit.c: keeps a light on the aperture, and its lobe such that the receivers see it. */
+void cluster_limit(const struct cluster_target *target, struct cluster_light *light);
 
 /* cluster_fit.c: refines the lights, drops those that are dark then, and makes their
  * flux that of the target in each channel. */

@@ -32,7 +32,7 @@ static const double least_gain = 3e-4;
 
 /* Cones are at least so many times the narrowest lobe that the receivers see, their soft
  * edges so many. */
-static const double least_cone = 2, least_edge = 1;
+static const double least_cone = 2, least_edge = 0.25;
 
 /* One light as the fit sees it. */
 struct numbers {
@@ -88,8 +88,7 @@ static void limit_lobe(double narrowest, double behind, struct numbers *n) {
   n->x[TIGHTNESS] = between(n->x[TIGHTNESS], 0, log1p(1 / (narrowest * narrowest)));
   n->x[FALLOFF] = fmax(fmin(n->x[FALLOFF], cos(least_cone * narrowest)), behind);
   double falloff = acos(n->x[FALLOFF]), radius = fmax(falloff - least_edge * narrowest, 0);
-  n->x[SOFTNESS] =
-      between(n->x[SOFTNESS], (cos(radius) - n->x[FALLOFF]) / (1 - n->x[FALLOFF]), 1);
+  n->x[SOFTNESS] = between(n->x[SOFTNESS], (cos(radius) - n->x[FALLOFF]) / (1 - n->x[FALLOFF]), 1);
 }
 
 /* Keeps a light on the aperture, its axis in the window, its lobe a lobe. */
@@ -115,6 +114,13 @@ static void limit(const struct cluster_target *target, const struct cluster_ligh
     n->x[CENTER + c] = between(n->x[CENTER + c], -room, room);
   }
   limit_lobe(target->narrowest, tilt / sqrt(1 + tilt * tilt), n);
+}
+
+void cluster_limit(const struct cluster_target *target, struct cluster_light *light) {
+  const struct cluster_light seed = *light;
+  struct numbers n = to_numbers(&seed);
+  limit(target, &seed, &n);
+  to_light(&n, &seed, light);
 }
 
 /* What light `k` gives to each row, `step` apart in the table. */

@@ -44,7 +44,7 @@ static int best_candidate(const struct growth *g) {
   for (int k = 0; k < g->candidate_count; ++k) {
     const double *table = g->tables + (size_t)k * (size_t)g->rows;
     double size = 0, along[3] = {0}, gain = 0;
-    for (int r = 0; r + 1 < g->rows && !g->taken[k]; ++r) {
+    for (int r = 0; r < g->rows && !g->taken[k]; ++r) {
       size += table[r] * table[r];
       for (int c = 0; c < 3; ++c) along[c] += table[r] * g->system.rest[r][c];
     }
@@ -75,7 +75,6 @@ enum slab_result cluster_grow(const struct cluster_target *target,
       g.taken[best] = true;
       lights[(*count)++] = candidates[best];
     }
-    cluster_set_sizes(lights, *count);
   } else {
     result = slab_fail(error, SLAB_MEMORY, "out of memory");
   }

@@ -19,6 +19,9 @@ enum { MOST_UV = 8, MOST_ST = 24, LLOYD_STEPS = 12, POWER_STEPS = 20 };
 enum { WIDTHS = 3, MOST_CANDIDATES = 2 * CLUSTER_MOST_LIGHTS * WIDTHS + 8 };
 static const double widths[WIDTHS] = {0.7, 1, 1.5};
 
+/* Of a candidate, on its own. */
+enum { CANDIDATE_POINTS = 16 };
+
 /* Share of a group's energy that its parallelogram may leave out. */
 static const double trimmed = 0.02;
 
@@ -227,9 +230,9 @@ static int points_at(struct cluster_light *lights, int count, double wider) {
   return points;
 }
 
-void cluster_set_sizes(struct cluster_light *lights, int count) {
+void cluster_set_sizes(struct cluster_light *lights, int count, int most) {
   double wider = 1;
-  while (points_at(lights, count, wider) > CLUSTER_MOST_SAMPLES && wider < 1e3) wider *= 1.1;
+  while (points_at(lights, count, wider) > most && wider < 1e3) wider *= 1.1;
 }
 
 /* Lights for the groups of one level. */
@@ -286,7 +289,7 @@ enum slab_result cluster_seed(const struct slab *slab, double distance,
   for (int groups = 1; groups <= CLUSTER_MOST_LIGHTS && result == SLAB_OK; groups *= 2)
     result = add_level(&coarse, &list, groups, *candidates, count, error);
   if (result == SLAB_OK) add_plain(*candidates, *candidates, count);
-  cluster_set_sizes(*candidates, *count);
+  for (int k = 0; k < *count; ++k) cluster_set_sizes(&(*candidates)[k], 1, CANDIDATE_POINTS);
   free(list.cells);
   slab_free(&coarse);
   return result;

@@ -39,8 +39,8 @@ static void add_point(const struct cluster_light *light, double p, double q, con
         facing * lobe.by_cosine * (x[k] / (r * size) - c * axis[k] / (size * size));
   }
   for (int k = 0; k < 2; ++k)
-    slopes[CLUSTER_SCALE + k] += (k ? q : p) * (light->edge[k][0] * by_place[0] +
-                                                light->edge[k][1] * by_place[1]);
+    slopes[CLUSTER_SCALE + k] +=
+        (k ? q : p) * (light->edge[k][0] * by_place[0] + light->edge[k][1] * by_place[1]);
   slopes[CLUSTER_TIGHTNESS] += facing * lobe.by_tightness;
   slopes[CLUSTER_FALLOFF] += facing * lobe.by_falloff;
   slopes[CLUSTER_SOFTNESS] += facing * lobe.by_softness;

@@ -64,8 +64,8 @@ static const struct argp_option options[] = {
     {"mode", 'm', "MODE", 0, "kind of light: sheet (exact; the default), cluster, point or auto",
      0},
     {"lights", 'l', "N", 0,
-     "sheet: at most N lights an axis (default: one on each uv sample); cluster: N lights in all, "
-     "up to 64 a page (default 16)",
+     "sheet: at most N lights an axis (default: one on each uv sample); cluster: at most N lights "
+     "in all, up to 64 a page (default 16)",
      0},
     {"tolerance", KEY_TOLERANCE, "T", 0, "as few lights as are at most T off (0.05 is 5 %)", 0},
     {"distance", KEY_DISTANCE, "D", 0, "where T holds, in aperture widths (default 4)", 0},
@@ -104,10 +104,6 @@ static void check_arguments(const struct arguments *arguments, struct argp_state
     argp_error(state, "--mode auto: needs --tolerance T, and --distance D if not 4");
   if (arguments->lights > 0 && arguments->modes & INCLUDE_POINT)
     argp_error(state, "--lights: the far field is one light; leave it out");
-  if (arguments->lights > CLUSTER_MOST_LIGHTS * CLUSTER_MOST_PAGES &&
-      arguments->modes == INCLUDE_CLUSTER)
-    argp_error(state, "--lights %d: a cluster has at most %d for each page", arguments->lights,
-               CLUSTER_MOST_LIGHTS);
 }
 
 static error_t parse_option(int key, char *value, struct argp_state *state) {

@@ -181,10 +181,37 @@ static void test_lights(void **state) {
     compare(cases[n].what, &lamp, 1, &cluster, 0, cases[n].distance);
     for (int k = 0; k < CLUSTER_DISTANCES && cases[n].lights > 1; ++k)
       compare_slab("  against the slab", &slab, cluster_distances[k], cluster.pages[0].error[k]);
-    if (cases[n].lights == 8) assert_true(cluster.pages[0].error[1] < 0.07);
+    if (cases[n].lights == 8) assert_true(cluster.pages[0].error[1] < 0.1);
     cluster_free(&cluster);
     slab_free(&slab);
   }
+}
+
+/* Narrow beams and noise: a lobe between the receivers of the fit must not hide from the
+ * error that is stated. */
+static void test_narrow(void **state) {
+  (void)state;
+  static const int fine[4] = {4, 4, 32, 32};
+  static const double wide[4] = {-3, 3, -3, 3};
+  struct slab slab = chain_slab(fine, edges, wide, INFINITY, 0, 26);
+  for (int j = 0; j < fine[1]; ++j)
+    for (int i = 0; i < fine[0]; ++i)
+      for (int l = 0; l < fine[3]; ++l)
+        for (int k = 0; k < fine[2]; ++k) {
+          double s = slab_position(&slab, SLAB_S, k), t = slab_position(&slab, SLAB_T, l);
+          double light = s * s + t * t < 1.4 ? 1 : 0.05;
+          for (int beam = 0; beam < 3; ++beam) {
+            double x = s - 0.9 + 0.7 * beam, y = t - 0.6 * beam * (beam - 1);
+            light += 4 * exp(-(x * x + y * y) / 0.02);
+          }
+          float *rgb = chain_sample(&slab, i, j, k, l); /* random */
+          for (int c = 0; c < 3; ++c) rgb[c] = (float)light * (1 + 0.2F * rgb[c]);
+        }
+  struct cluster cluster = fit(&slab, 1, 8);
+  for (int k = 1; k < CLUSTER_DISTANCES; ++k) /* nearer by, the slab's few views tell apart */
+    compare_slab("narrow beams", &slab, cluster_distances[k], cluster.pages[0].error[k]);
+  cluster_free(&cluster);
+  slab_free(&slab);
 }
 
 static void test_placed(void **state) {
@@ -312,9 +339,10 @@ static void test_point(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lights),   cmocka_unit_test(test_placed),
-      cmocka_unit_test(test_pages),    cmocka_unit_test(test_fewer_points),
-      cmocka_unit_test(test_refusals), cmocka_unit_test(test_point),
+      cmocka_unit_test(test_lights),       cmocka_unit_test(test_narrow),
+      cmocka_unit_test(test_placed),       cmocka_unit_test(test_pages),
+      cmocka_unit_test(test_fewer_points), cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_point),
   };
   return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
 }

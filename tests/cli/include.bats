@@ -50,6 +50,32 @@ setup() {
   done
 }
 
+@test "more lights than a cluster may have" {
+  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode cluster --lights 65
+  refused 1 "even.tif: 65 lights are too many for a cluster" "ask for --lights 64"
+  [ ! -e a.inc ]
+}
+
+@test "auto takes the sheet where no cluster is exact enough, and says how far off it is" {
+  light() { for k in {0..63}; do ((k * 11 % 7)) && printf 00000000 || printf '%s' "$one"; done; }
+  raw_slab speckled.tif '[2, 2, 8, 8]' 16 16 ', "name": "speckled"' "$(light)" "$(light)" "$(light)"
+  run --separate-stderr "$BAKESLAB" include speckled.tif -o a.inc --mode auto --tolerance 0.08 --distance 8
+  [ "$status" -eq 0 ]
+  [[ $stderr == *"with 8 % allowed, sheet of "*"cluster of "*" % off"* ]]
+}
+
+@test "all energy in one sample: every kind lights and tells its error" {
+  dark=$(printf '00000000%.0s' {1..27})
+  spot=$dark${one}00000000${one}00000000${one}$(printf '00000000%.0s' {1..224})
+  raw_slab spot.tif '[2, 2, 8, 8]' 16 16 ', "name": "spot"' "$spot"
+  for mode in sheet cluster point; do
+    run --separate-stderr "$BAKESLAB" include spot.tif -o $mode.inc --mode $mode
+    [ "$status" -eq 0 ]
+    [ -z "$stderr" ]
+    grep -q '^// .*error' $mode.inc
+  done
+}
+
 @test "options that contradict each other" {
   misused() { # WHAT IT SAYS, OPTIONS...
     local says=$1

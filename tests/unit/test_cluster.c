@@ -152,6 +152,39 @@ static void test_flux_of_lobes(void **state) {
   assert_near(cluster_flux(&light), sum, 1e-8);
 }
 
+/* Derivatives, by differences. */
+static void test_slopes(void **state) {
+  (void)state;
+  static const double at[3] = {0.5, -0.3, 1.2}, apart = 1e-6;
+  const struct cluster_light light = {.center = {0.1, -0.05},
+                                      .edge = {{0.4, 0.1}, {-0.1, 0.3}},
+                                      .axis = {0.2, 0.1},
+                                      .tightness = 3,
+                                      .cos_radius = 0.99,
+                                      .cos_falloff = 0.6,
+                                      .size = {2, 4}};
+  double slopes[CLUSTER_NUMBERS], soft = (0.99 - 0.6) / 0.4;
+  cluster_slopes(&light, at, slopes);
+  for (int n = 0; n < CLUSTER_NUMBERS; ++n) {
+    double values[2];
+    for (int side = 0; side < 2; ++side) {
+      struct cluster_light moved = light;
+      double step = side ? apart : -apart;
+      if (n < CLUSTER_SCALE) moved.center[n] += step;
+      if (n == CLUSTER_AXIS || n == CLUSTER_AXIS + 1) moved.axis[n - CLUSTER_AXIS] += step;
+      if (n == CLUSTER_SCALE || n == CLUSTER_SCALE + 1)
+        for (int c = 0; c < 2; ++c) moved.edge[n - CLUSTER_SCALE][c] *= exp(step);
+      if (n == CLUSTER_TIGHTNESS) moved.tightness = 4 * exp(step) - 1;
+      if (n == CLUSTER_FALLOFF) moved.cos_falloff += step;
+      moved.cos_radius =
+          moved.cos_falloff + (soft + (n == CLUSTER_SOFTNESS ? step : 0)) * (1 - moved.cos_falloff);
+      values[side] = cluster_irradiance(&moved, at);
+    }
+    assert_true(fabs(slopes[n]) > 1e-3);
+    assert_near((values[1] - values[0]) / (2 * apart), slopes[n], 1e-7);
+  }
+}
+
 static double soft_lamp(const double x[4], int channel) {
   double p = x[0] - x[2], q = x[1] - x[3];
   return (1 + 0.2 * x[0]) * (0.5 + 3 * exp(-(p * p + q * q))) *
@@ -318,9 +351,10 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_parallelogram), cmocka_unit_test(test_flat_parallelograms),
       cmocka_unit_test(test_nonnegative),   cmocka_unit_test(test_flux_of_lobes),
-      cmocka_unit_test(test_flux),          cmocka_unit_test(test_determinism),
-      cmocka_unit_test(test_known_mixture), cmocka_unit_test(test_one_sample),
-      cmocka_unit_test(test_refusals),      cmocka_unit_test(test_point_flux),
+      cmocka_unit_test(test_slopes),        cmocka_unit_test(test_flux),
+      cmocka_unit_test(test_determinism),   cmocka_unit_test(test_known_mixture),
+      cmocka_unit_test(test_one_sample),    cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_point_flux),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
