@@ -179,7 +179,8 @@ static enum slab_result find_effects(struct bake_work *work, struct bake_state *
     if (!result) result = read_lamp(work, state, &all, error);
     if (!result) result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
   }
-  return result ? result : read_lamp(work, state, &state->effects, error);
+  bool known = automatic && !state->origin.probed && !effects_any(&state->effects);
+  return result || known ? result : read_lamp(work, state, &state->effects, error);
 }
 
 static enum slab_result prepare(struct bake_work *work, struct bake_state *state,

@@ -112,14 +112,19 @@ near() { awk -v a="$1" -v b="$2" -v p="$3" 'BEGIN { print a, b; exit !(a - b <= 
   [[ $(field given.exr samples) == "4 3 "* ]]
 }
 
-@test "--for-distance puts the st plane there where that is cheaper, with the same light" {
-  # Fine bars 8 off: sharp on a plane there, different from each position.
-  lamp slide.pov 'plane { z, -0.5 pigment { rgb 1 } finish { emission 1 } }
-    union { #for (K, -40, 40) box { <0.4*K, -20, 7>, <0.4*K + 0.2, 20, 7.01> } #end pigment { rgb 0 } no_shadow translate -9*z }'
-  lamp screen.pov 'plane { z, -3 pigment { rgb 1 } finish { emission 1 } }
-    plane { z, -0.2 pigment { checker rgb 0 rgbt 1 scale 0.25 } finish { diffuse 0 } }'
-  bake screen.pov -q -o x.exr --rays 2 --for-distance 8 --tolerance 0.05
-  "$BAKESLAB" info x.exr | grep -q 'resolution  *tolerance 0.05 .* at 8 lamp units and beyond .*; st plane '
+@test "--for-distance says where the st plane is best; there the rays are the same" {
+  # A glowing board 4 wide, seen from 2 x 2: a plane at 8 and one at infinity both hold it.
+  lamp board.pov 'box { <-2, -2, -3.1>, <2, 2, -3> pigment { gradient x color_map { [0 rgb 0.2] [1 rgb 1] } scale 4 translate -2*x } finish { emission 1 } }'
+  bake board.pov -q -o far.exr --rays 2 --uv 8 --st 64
+  bake board.pov -q -o x.exr --rays 2 --uv 8 --st 64 --for-distance 8
+  "$BAKESLAB" info x.exr | grep 'resolution  *tolerance 0.01 .* at 8 lamp units and beyond .*; st plane '
+  near "$(flux x.exr)" "$(flux far.exr)" 0.01
+  # Rays inside the board, by both slabs.
+  rays='0.1 0.2 0 0.2 0.1 1
+-0.4 0.3 0 0.1 -0.2 1
+0.5 -0.5 0 -0.3 0.2 1'
+  paste <(echo "$rays" | "$BAKESLAB" lookup x.exr) <(echo "$rays" | "$BAKESLAB" lookup far.exr) |
+    awk '{ print; if (!($1 > 0 && $1 - $4 < 0.02 && $4 - $1 < 0.02)) exit 1 }'
 }
 
 @test "what makes no sense is refused" {
