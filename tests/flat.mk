@@ -51,7 +51,7 @@ tradeoff: $(BIN) $(BENCH_FLOOR) $(TRADEOFF_LAMPS) $(DEMO)/parabolic.tif ## measu
 
 bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
 	@mkdir -p build/bench
-	@for b in tests/bench/*.sh; do [ -x "$$b" ] || continue; \
+	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
 
 lint: $(B)/flags ## check formatting, static analysis and house rules

@@ -2,7 +2,8 @@
 # What each kind of include costs and errs: sheets of 16, 8 and 4 lights a side, clusters of 4,
 # 16 and 64 area lights, and the far field as one point, for four lamps. A square as wide as 8
 # apertures, 4 apertures away, bare and with a ball between; errors are those of POV-Ray's
-# picture against renderslab's reference from the same slab.
+# picture against renderslab's reference from the same slab. Beside them the lamp's whole
+# geometry over the bare square, with what it calls for; its error is mostly noise.
 set -euo pipefail
 # shellcheck source=tests/bench/bench.bash
 . "$(dirname "$0")/bench.bash"
@@ -11,6 +12,7 @@ BUILD=$BUILD/includes
 # shellcheck source=tests/tradeoff/tradeoff.bash
 . "$root/tests/tradeoff/tradeoff.bash"
 size=160x120 away=4
+declare -A calls_for=([torch]='caustics extended_source') # the others: interreflection
 modes=('sheet 16' 'sheet 8' 'sheet 4' 'cluster 4' 'cluster 16' 'cluster 64' 'point 1')
 
 # scenes LAMP: bare.obj and ball.obj before page 1, and camera.txt. Meshes have z mirrored.
@@ -39,6 +41,9 @@ scenes() {
         if (j > 0) print "f " a, b, b + N >"ball.part"
         if (j < N/2 - 1) print "f " a, b + N, a + N >"ball.part"
       }
+      print "#declare Square = polygon { 4" >"square.inc"
+      for (k = 0; k < 4; ++k) print ", <" comma((k == 1 || k == 2 ? 4 : -4), (k > 1 ? 4 : -4), away) ">" >"square.inc"
+      print " }" >"square.inc"
       printf "from=%s at=%s up=%g,%g,%g fov=80", comma(0, -3, 0.8), comma(0, 0.4, away), v[1], v[2], v[3] >"camera.txt"
     }'
   { echo "mtllib room.mtl"; cat bare.obj; } >scene.part
@@ -64,6 +69,35 @@ error() {
   calc %.2g "100*$rms"
 }
 
+# whole LAMP: LAMP-whole.pov, the square under the lamp itself. Its light alone is wanted: rays
+# that gather do not see the square (see include-pov/demo.pov).
+whole() {
+  local effects=${calls_for[$1]-extended_source}
+  cat >"$1-whole.pov" <<POV
+#version 3.7;
+#declare Canned_Bake_Effects = "$effects";
+#include "$1.pov"
+#include "square.inc"
+object { Square pigment { rgb 0.8 } finish { diffuse 1 ambient 0 } no_radiosity }
+$([ "$effects" = extended_source ] && cat <<'RADIOSITY'
+global_settings {
+  max_trace_level 12
+  radiosity {
+    pretrace_start 0.08 pretrace_end 0.01
+    count 6400, 64000 error_bound 0.2 nearest_count 10 recursion_limit 3
+    low_error_factor 0.7 minimum_reuse 0.01 gray_threshold 0 brightness 1
+  }
+}
+RADIOSITY
+)
+#include "camera.inc"
+POV
+  sed -n '/^camera/,/^}/p' "$1-bare.pov" >camera.inc
+  spend "$1-whole" povray "+I$1-whole.pov" +Owhole.exr "+W${size%x*}" "+H${size#*x}" +FE -A -D +WT1 \
+    "+L$CANNED_INCLUDE" "+L$root/lamps"
+  printf '  %-12s %-12s %10s %10s %10s\n' "$1" 'whole lamp' "$(error whole.exr "$1-bare-reference.exr")" - "$(cat "$1-whole.cpu")"
+}
+
 lamp_table() {
   local lamp=$1 mode kind n start cpu options
   [ "$lamp.tif" -nt "$root/lamps/$lamp.pov" ] ||
@@ -84,6 +118,7 @@ lamp_table() {
     printf '  %-12s %-12s %10s %10s %10s\n' "$lamp" "$mode" "$(error bare.exr "$lamp-bare-reference.exr")" \
       "$(error ball.exr "$lamp-ball-reference.exr")" "$cpu"
   done
+  whole "$lamp"
 }
 
 cp "$root/tests/tradeoff/room.mtl" .
