@@ -51,13 +51,6 @@ enum slab_result scene_import_meshes(struct scene_loading *loading, const struct
 enum slab_result scene_import_materials(struct scene_loading *loading, const struct aiScene *from,
                                         const bool *used, struct slab_error *error);
 
-/* Reads an image of any format as linear RGB, by running oiiotool; its alpha is ignored.
- * `path` is the file or, where `bytes` are given, only what messages call it. `suffix` is the
- * format's name, as in file names. */
-enum slab_result scene_texture_read(const char *path, const void *bytes, size_t size,
-                                    const char *suffix, struct slab_picture *picture,
-                                    struct slab_error *error);
-
 /* `name`, relative to the folder of `path`; the caller frees it. NULL without memory. */
 char *scene_beside(const char *path, const char *name);
 

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "scene_load.h"
+#include "slab_image.h"
 
 /* Programs on Windows write \ between folders. */
 static char *texture_path(const struct scene_loading *loading, const char *name) {
@@ -28,17 +29,15 @@ static char *texture_path(const struct scene_loading *loading, const char *name)
 static enum slab_result read_picture(const struct scene_loading *loading,
                                      const struct aiTexture *embedded,
                                      struct scene_texture *texture, struct slab_error *error) {
-  if (!embedded) {
-    const char *dot = strrchr(texture->path, '.');
-    return scene_texture_read(texture->path, NULL, 0, dot ? dot + 1 : "", &texture->picture, error);
-  }
+  if (!embedded)
+    return slab_image_read(texture->path, NULL, 0, NULL, &texture->picture, NULL, error);
   if (embedded->mHeight != 0 || !embedded->pcData)
     return slab_fail(error, SLAB_BAD,
                      "%s: embeds an image as bare pixels, which is not supported; embed a PNG or "
                      "JPEG file",
                      loading->path);
-  return scene_texture_read(texture->path, embedded->pcData, embedded->mWidth,
-                            embedded->achFormatHint, &texture->picture, error);
+  return slab_image_read(texture->path, embedded->pcData, embedded->mWidth, embedded->achFormatHint,
+                         &texture->picture, NULL, error);
 }
 
 /* Loads the texture unless it is there already; *number is its number. assimp calls the

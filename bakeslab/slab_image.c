@@ -1,5 +1,8 @@
-/* scene_texture.c - images of any format, see scene_load.h. OpenImageIO is 261 libraries, so
- * its oiiotool reads them, run as a program of its own, and hands over an EXR file. */
+/* slab_image.c - see slab_image.h. OpenImageIO is 261 libraries, so its oiiotool reads the
+ * images, run as a program of its own, and hands over an EXR file. */
+#include "slab_image.h"
+
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -9,8 +12,6 @@
 #include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "scene_load.h"
 
 enum { EXEC_FAILED = 127 };
 
@@ -27,13 +28,13 @@ static void scratch_path(const struct scratch *scratch, const char *name, char p
   snprintf(path, 600, "%s/%s", scratch->folder, name);
 }
 
+/* An oiiotool that was killed leaves files under names of its own. */
 static void scratch_remove(const struct scratch *scratch) {
-  const char *const names[] = {scratch->in, OUT, SAID, ERRORS};
-  char path[600];
-  for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
-    scratch_path(scratch, names[k], path);
-    unlink(path);
-  }
+  DIR *folder = opendir(scratch->folder);
+  const struct dirent *entry;
+  while (folder && (entry = readdir(folder)))
+    unlinkat(dirfd(folder), entry->d_name, 0); /* neither . nor .. goes */
+  if (folder) closedir(folder);
   rmdir(scratch->folder);
 }
 
@@ -59,7 +60,7 @@ static enum slab_result scratch_make(struct scratch *scratch, const char *name, 
     letters[n] = suffix[n];
   letters[n] = 0;
   snprintf(scratch->in, sizeof scratch->in, "in.%s", letters);
-  int length = snprintf(scratch->folder, sizeof scratch->folder, "%s/renderslab-XXXXXX",
+  int length = snprintf(scratch->folder, sizeof scratch->folder, "%s/slab-image-XXXXXX",
                         temporary && temporary[0] ? temporary : "/tmp");
   if (length >= (int)sizeof scratch->folder || !mkdtemp(scratch->folder))
     return slab_fail(error, SLAB_IO, "%s: %s", scratch->folder, strerror(errno));
@@ -88,9 +89,11 @@ static void become_oiiotool(const struct scratch *scratch) {
   dup2(said, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
   /* colours as they are in the file, not multiplied by alpha; the first three channels,
-   * or the first for all three; and what the numbers mean */
+   * or the first for all three; the least alpha, and what the numbers mean */
   execlp("oiiotool", "oiiotool", "--native", "--iconfig", "oiio:UnassociatedAlpha", "1",
-         scratch->in, "--echo", "{TOP.format} {TOP['oiio:ColorSpace']}", "--if",
+         scratch->in, "--if", "{TOP.alpha_channel >= 0}", "--dup", "--ch", "{TOP.alpha_channel}",
+         "--echo:newline=0", "{TOP.MINCOLOR} ", "--pop", "--else", "--echo:newline=0", "1 ",
+         "--endif", "--echo", "{TOP.format} {TOP['oiio:ColorSpace']}", "--if",
          "{TOP.nchannels < 3}", "--ch", "0,0,0", "--else", "--ch", "0,1,2", "--endif", "--chnames",
          "R,G,B", "-d", "float", "--compression", "none", "-o", OUT, (char *)NULL);
   _exit(EXEC_FAILED);
@@ -116,7 +119,7 @@ static enum slab_result run(const struct scratch *scratch, const char *name,
     if (errno != EINTR) return slab_fail(error, SLAB_IO, "oiiotool: %s", strerror(errno));
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXEC_FAILED)
     return slab_fail(error, SLAB_IO,
-                     "%s: oiiotool, which reads textures, cannot be run; install it (Debian: apt "
+                     "%s: oiiotool, which reads images, cannot be run; install it (Debian: apt "
                      "install openimageio-tools)",
                      name);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return SLAB_OK;
@@ -153,14 +156,16 @@ static enum slab_result decode(const char *name, const char *said, struct slab_p
   return SLAB_OK;
 }
 
-enum slab_result scene_texture_read(const char *path, const void *bytes, size_t size,
-                                    const char *suffix, struct slab_picture *picture,
-                                    struct slab_error *error) {
+enum slab_result slab_image_read(const char *path, const void *bytes, size_t size,
+                                 const char *suffix, struct slab_picture *picture,
+                                 bool *transparent, struct slab_error *error) {
   struct scratch scratch = {"", ""};
   struct slab_error inner = {""};
-  char out[600], said[512];
+  const char *dot = strrchr(path, '.');
+  char out[600], said[512], *meaning = said;
   bool made;
   *picture = (struct slab_picture){0};
+  if (!suffix) suffix = dot ? dot + 1 : "";
   enum slab_result result = scratch_make(&scratch, path, bytes, size, suffix, &made, error);
   if (!result) result = run(&scratch, path, error);
   if (!result) {
@@ -170,7 +175,9 @@ enum slab_result scene_texture_read(const char *path, const void *bytes, size_t 
   }
   if (!result) {
     first_line(&scratch, SAID, said);
-    result = decode(path, said, picture, error);
+    double alpha = strtod(said, &meaning);
+    if (transparent) *transparent = !(alpha >= 1);
+    result = decode(path, meaning + strspn(meaning, " "), picture, error);
   }
   if (made) scratch_remove(&scratch);
   if (result) slab_picture_free(picture);
