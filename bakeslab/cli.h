@@ -16,10 +16,17 @@ int cmd_diff(int argc, char **argv);
 int cmd_include(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_lookup(int argc, char **argv);
+int cmd_projector(int argc, char **argv);
 
 /* "logluv", "float" or "half", and back. */
 bool cli_parse_precision(const char *text, enum slab_precision *precision);
 const char *cli_precision_name(enum slab_precision precision);
+
+/* For argp: what an option's argument says. They complain of numbers that are not positive and
+ * finite, and of numbers of samples that are no NxM. */
+void cli_parse_samples(struct argp_state *state, const char *option, const char *text,
+                       int samples[2]);
+double cli_parse_positive(struct argp_state *state, const char *option, const char *text);
 
 /* For argp: takes exactly one argument, a slab, into *path, and complains about none or
  * more. Call it for keys that are no option of the command. */

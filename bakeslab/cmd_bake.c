@@ -1,5 +1,4 @@
 /* cmd_bake.c - bakeslab bake: a lamp script becomes a light slab. */
-#include <float.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -130,12 +129,6 @@ static int parse_number(struct argp_state *state, const char *option, const char
   return (int)value;
 }
 
-static void parse_size(struct argp_state *state, const char *option, const char *text,
-                       int size[2]) {
-  if (!cli_parse_size(text, size))
-    argp_error(state, "%s %s: not a size such as 16x16", option, text);
-}
-
 static int parse_word(struct argp_state *state, const char *option, const char *text,
                       const char *const *words) {
   for (int n = 0; words[n]; ++n)
@@ -164,14 +157,6 @@ static double parse_gain(struct argp_state *state, const char *text) {
   return gain;
 }
 
-static double parse_positive(struct argp_state *state, const char *option, const char *text) {
-  char *end;
-  double value = strtod(text, &end);
-  if (end == text || *end || !(value > 0 && value <= DBL_MAX))
-    argp_error(state, "%s %s: not a number above 0", option, text);
-  return value;
-}
-
 /* Options that leave the choice to small bakes. */
 static error_t parse_choices(int key, char *text, struct argp_state *state,
                              struct bake_options *bake) {
@@ -181,16 +166,16 @@ static error_t parse_choices(int key, char *text, struct argp_state *state,
     bake->effects = text;
     return 0;
   case OPTION_THRESHOLD:
-    bake->effect_threshold = parse_positive(state, "--effect-threshold", text);
+    bake->effect_threshold = cli_parse_positive(state, "--effect-threshold", text);
     return 0;
   case OPTION_WINDOW:
     bake->window_auto = parse_word(state, "--window", text, windows) == 1;
     return 0;
   case OPTION_TOLERANCE:
-    bake->tolerance = parse_positive(state, "--tolerance", text);
+    bake->tolerance = cli_parse_positive(state, "--tolerance", text);
     return 0;
   case OPTION_DISTANCE:
-    bake->for_distance = parse_positive(state, "--for-distance", text);
+    bake->for_distance = cli_parse_positive(state, "--for-distance", text);
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;
@@ -202,10 +187,10 @@ static error_t parse_samples(int key, char *text, struct argp_state *state,
                              struct bake_options *bake) {
   switch (key) {
   case OPTION_UV:
-    parse_size(state, "--uv", text, bake->uv);
+    cli_parse_samples(state, "--uv", text, bake->uv);
     return 0;
   case OPTION_ST:
-    parse_size(state, "--st", text, bake->st);
+    cli_parse_samples(state, "--st", text, bake->st);
     return 0;
   case OPTION_PRECISION:
     if (!cli_parse_precision(text, &bake->precision))
@@ -355,8 +340,6 @@ int cmd_bake(int argc, char **argv) {
   struct sigaction action = {.sa_handler = on_signal};
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
-  signal(SIGCHLD,
-         SIG_DFL); /* were it ignored, as some parents leave it, none could be waited for */
   struct sigaction hangup;
   sigaction(SIGHUP, NULL, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup stays in force */

@@ -20,12 +20,6 @@ struct options {
 
 enum { OPTION_PRECISION = 256, OPTION_UV, OPTION_ST, OPTION_CROP, OPTION_SHARPEN, OPTION_POSITIVE };
 
-static void parse_size(const char *option, const char *text, int *samples,
-                       struct argp_state *state) {
-  if (!cli_parse_size(text, samples))
-    argp_error(state, "--%s %s: must be NxM, each from 1 to 65536", option, text);
-}
-
 /* uv=I0:I1,J0:J1 or st=K0:K1,L0:L1 */
 static void parse_crop(const char *text, struct options *options, struct argp_state *state) {
   int axis = !strncmp(text, "uv=", 3) ? SLAB_U : !strncmp(text, "st=", 3) ? SLAB_S : -1;
@@ -50,10 +44,10 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
       argp_error(state, "--precision %s: must be logluv, float or half", argument);
     return 0;
   case OPTION_UV:
-    parse_size("uv", argument, options->samples + SLAB_U, state);
+    cli_parse_samples(state, "--uv", argument, options->samples + SLAB_U);
     return 0;
   case OPTION_ST:
-    parse_size("st", argument, options->samples + SLAB_S, state);
+    cli_parse_samples(state, "--st", argument, options->samples + SLAB_S);
     return 0;
   case OPTION_CROP:
     parse_crop(argument, options, state);

@@ -1,7 +1,6 @@
 /* cmd_include.c - bakeslab include: a slab as an include that lights any
  * POV-Ray scene. */
 #include <ctype.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -87,14 +86,6 @@ static int parse_mode(const char *value, struct argp_state *state) {
   return 0;
 }
 
-static double parse_positive(const char *option, const char *value, struct argp_state *state) {
-  char *end;
-  double number = strtod(value, &end);
-  if (end == value || *end || !(number > 0) || !isfinite(number))
-    argp_error(state, "%s %s: must be a positive number", option, value);
-  return number;
-}
-
 /* Options that contradict each other. */
 static void check_arguments(const struct arguments *arguments, struct argp_state *state) {
   if (!arguments->output) argp_error(state, "no output given; add -o LAMP.inc");
@@ -122,10 +113,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
     arguments->lights = size[0];
     return 0;
   case KEY_TOLERANCE:
-    arguments->tolerance = parse_positive("--tolerance", value, state);
+    arguments->tolerance = cli_parse_positive(state, "--tolerance", value);
     return 0;
   case KEY_DISTANCE:
-    arguments->distance = parse_positive("--distance", value, state);
+    arguments->distance = cli_parse_positive(state, "--distance", value);
     return 0;
   case 'n':
     arguments->name = value;

@@ -7,6 +7,7 @@ static const struct cli_command commands[] = {
     {"info", cmd_info, "geometry, samples, flux, peak and provenance of a slab"},
     {"check", cmd_check, "validate a slab and warn where its light is cut off"},
     {"lookup", cmd_lookup, "radiance of rays read from stdin"},
+    {"projector", cmd_projector, "make the slab of a slide projector from an image"},
     {"convert", cmd_convert, "other container, precision or resolution"},
     {"diff", cmd_diff, "compare two slabs"},
     {"include", cmd_include, "write a POV-Ray include that lights a scene"},

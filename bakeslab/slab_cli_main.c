@@ -1,4 +1,5 @@
 /* slab_cli_main.c - from a program's arguments to one of its commands. */
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,6 +77,8 @@ int cli_main(const struct cli_program *program, int argc, char **argv) {
   struct slab_arguments arguments = {0};
   struct slab_error error = {{0}};
   int status;
+  signal(SIGCHLD, SIG_DFL); /* were it ignored, as some parents leave it, no program that we run
+                               could be waited for */
   atexit(cli_check_stdout_at_exit);
   argp_err_exit_status = CLI_USAGE;
   snprintf(version, sizeof version, "%s " CANNED_VERSION, program->name);
