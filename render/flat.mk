@@ -67,10 +67,27 @@ $(FIGURES)/figure6-%-renderslab.exr: $(FIGURES)/parabolic_%.tif $(FIGURES)/offic
 $(FIGURES)/figure6.txt: $(foreach lamp,small large,$(FIGURES)/figure6-$(lamp)-povray.exr $(FIGURES)/figure6-$(lamp)-renderslab.exr)
 	@render/figure6.sh compare $(@D) >$@
 
+# Figure 5: a wall that the slide projector lights at an angle, by each of the methods.
+FIGURE5_METHODS := reference
+FIGURE5 := render/scenes/figure5.obj render/scenes/figure5.mtl
+FIGURE5_PICTURES := $(FIGURE5_METHODS:%=$(FIGURES)/figure5-%.exr)
+
+$(FIGURES)/slide.png: lamps/projector/slide.pov | $(SETUP_FIRST)
+	@mkdir -p $(@D)
+	@povray +I$< +O$@ +W768 +H512 +A0.1 -D >$(@:.png=.log) 2>&1 || { echo 'POV-Ray failed; see $(@:.png=.log)' >&2; exit 1; }
+
+$(FIGURES)/projector.tif: $(FIGURES)/slide.png $(BAKE_BIN)
+	@$(BAKE_BIN) projector $< -o $@ --aperture 0.3 --focus 2 --width 2.4
+
+$(FIGURES)/figure5-%.exr: $(FIGURES)/projector.tif $(FIGURE5) $(RENDER_BIN)
+	@echo 'Rendering $@'
+	@$(RENDER_BIN) image $(FIGURE5:%.mtl=) --light '$< at=-0.845,0,-1.813 toward=0,0,0' --camera 'from=0.45,0,-3.1 at=0.45,0,0 fov=62' \
+	  --size 400x250 --samples 2 --method $* --exposure 0.0045 --preview $(@:.exr=.png) -o $@
+
 .PHONY: figures
-figures: $(FIGURES)/figure3.exr $(FIGURES)/figure3-half.exr | $(FIGURES)/figure6.txt ## render the figures of the paper
+figures: $(FIGURES)/figure3.exr $(FIGURES)/figure3-half.exr | $(FIGURES)/figure6.txt $(FIGURE5_PICTURES) ## render the figures of the paper
 	@render/figure3.sh difference $^ $(FIGURES)/figure3-difference.png
 	@echo 'CPU seconds at 80x50 pixels, where the paper tells a factor of 7.4:'
 	@RENDERSLAB=$(RENDER_BIN) render/figure3.sh factors $(FIGURES)/parabolic.tif $(FIGURES)/half.tif
 	@cat $(FIGURES)/figure6.txt
-	@echo 'Look at $(^:.exr=.png) $(FIGURES)/figure3-difference.png $(FIGURES)/figure6-*.png'
+	@echo 'Look at $(^:.exr=.png) $(FIGURES)/figure3-difference.png $(FIGURE5_PICTURES:.exr=.png) $(FIGURES)/figure6-*.png'

@@ -1,0 +1,116 @@
+#!/usr/bin/env bats
+# bakeslab projector: which way round the picture is, colours of kinds of images, refusals.
+# Its light is tested in tests/render/test_projector.c.
+
+# shellcheck disable=SC2154 # run sets status and stderr
+bats_require_minimum_version 1.5.0
+
+setup() {
+  cd "$BATS_TEST_TMPDIR" || return
+  export TMPDIR=$BATS_TEST_TMPDIR/tmp
+  mkdir tmp
+  # Red and green above blue and grey.
+  printf 'P3\n2 2\n255\n255 0 0  0 255 0\n0 0 255  188 188 188\n' >four.ppm
+  where=(--aperture 0.1 --focus 2 --width 1)
+}
+
+# refuses STATUS PIECES... -- ARGUMENTS: one line with the pieces; neither a slab nor anything
+# else is left. The variable `path` may say where programs are.
+refuses() {
+  local wanted=$1 pieces=() piece
+  while shift && [ "$1" != -- ]; do pieces+=("$1"); done
+  shift
+  run --separate-stderr env PATH="${path:-$PATH}" "$BAKESLAB" projector "$@"
+  if [ "$status" -ne "$wanted" ] || [ "${#stderr_lines[@]}" -ne 1 ]; then
+    echo "status $status: $stderr"
+    return 1
+  fi
+  for piece in "${pieces[@]}"; do
+    [[ $stderr == bakeslab*"$piece"* ]] || { echo "'$stderr' does not say '$piece'"; return 1; }
+  done
+  [ ! -e s.tif ] && [ ! -e s.exr ] && [ -z "$(ls tmp)" ]
+}
+
+@test "the picture is upright and not mirrored for who looks along +z" {
+  "$BAKESLAB" projector four.ppm -o s.exr "${where[@]}"
+  # From the middle of the aperture to the middles of the pixels, 2 away.
+  run "$BAKESLAB" lookup s.exr <<<'0 0 0  -0.25 0.25 2
+0 0 0  0.25 0.25 2
+0 0 0  -0.25 -0.25 2'
+  [ "$output" = $'1 0 0\n0 1 0\n0 0 1' ]
+  # The same point of the picture from a corner of the aperture.
+  [ "$("$BAKESLAB" lookup s.exr <<<'0.04 -0.04 0  -0.29 0.29 2')" = "1 0 0" ]
+  # sRGB 188/255 is half the light.
+  "$BAKESLAB" lookup s.exr <<<'0 0 0  0.25 -0.25 2' | awk '{ exit !($1 > 0.502 && $1 < 0.504 && $1 == $3) }'
+  [ -z "$(ls tmp)" ]
+}
+
+@test "floating-point images are linear, opaque alpha is fine, grey is grey" {
+  oiiotool --create 2x2 4 --fill:color=0.5,0.25,2,1 2x2 -d half -o half.exr
+  "$BAKESLAB" projector half.exr -o s.exr "${where[@]}"
+  [ "$("$BAKESLAB" lookup s.exr <<<'0 0 0  0 0 2')" = "0.5 0.25 2" ]
+  oiiotool --create 2x2 2 --chnames Y,A --fill:color=1,1 2x2 -d uint8 -o grey.png
+  "$BAKESLAB" projector grey.png -o s.exr "${where[@]}"
+  [ "$("$BAKESLAB" lookup s.exr <<<'0 0 0  0 0 2')" = "1 1 1" ]
+}
+
+@test "a large image is averaged to 256 samples; the slab tells its name and command" {
+  oiiotool --create 1024x512 3 --fill:color=1,1,1 512x512+0+0 -d uint8 -o wide.png
+  "$BAKESLAB" projector wide.png -o my_slide.tif "${where[@]}"
+  run "$BAKESLAB" info my_slide.tif
+  [[ $output == *": my_slide"*"8 x 8 x 256 x 128, logluv"*"cell_means"*"bakeslab projector wide.png -o my_slide.tif"* ]]
+  "$BAKESLAB" projector wide.png -o my-slide.exr "${where[@]}" --precision half
+  run "$BAKESLAB" info my-slide.exr
+  [[ $output == *": projector"*", half"* ]]
+  "$BAKESLAB" include my_slide.tif -o my_slide.inc --lights 2
+  grep -q My_Slide_Canned my_slide.inc
+}
+
+@test "images that are none, or no good" {
+  : >empty.png
+  printf 'P3\n0 0\n255\n' >nothing.ppm
+  printf 'P3\n1000000 1000000\n255\n1 2 3\n' >huge.ppm
+  oiiotool --create 2x2 4 --fill:color=1,1,1,0.5 2x2 -d uint8 -o glass.png
+  printf 'Pf\n1 1\n-1\n\0\0\300\177' >nan.pfm
+  printf 'Pf\n1 1\n-1\n\0\0\200\277' >negative.pfm
+  for name in empty.png nothing.ppm huge.ppm .; do
+    refuses 1 "$name: is no image that can be read" -- "$name" -o s.tif "${where[@]}"
+  done
+  refuses 1 "gone.png: No such file" -- gone.png -o s.tif "${where[@]}"
+  refuses 1 "glass.png: has transparent pixels; put it on black first" -- glass.png -o s.tif "${where[@]}"
+  refuses 1 "nan.pfm: column 0, row 0 holds a value that is negative or not finite" -- nan.pfm -o s.tif "${where[@]}"
+  refuses 1 "negative.pfm: column 0, row 0" -- negative.pfm -o s.tif "${where[@]}"
+  path=/nowhere refuses 1 "four.ppm: oiiotool, which reads images, cannot be run; install it" -- four.ppm -o s.tif "${where[@]}"
+}
+
+@test "outputs that cannot be" {
+  refuses 1 "s.png: the name must end in .tif, .tiff or .exr" -- four.ppm -o s.png "${where[@]}"
+  oiiotool four.ppm -d half -o four.exr
+  refuses 1 "./four.exr: is the image" -- four.exr -o ./four.exr "${where[@]}"
+  refuses 1 "samples" -- four.ppm -o s.tif "${where[@]}" --uv 65536 --st 65536
+  refuses 1 "is not finite" -- four.ppm -o s.exr "${where[@]}" --white 1e39
+  refuses 1 "use --precision float" -- four.ppm -o s.tif "${where[@]}" --white 1e30
+}
+
+@test "arguments that cannot be" {
+  refuses 2 "no image given" -- -o s.tif "${where[@]}"
+  refuses 2 "one image at a time" -- four.ppm four.ppm -o s.tif "${where[@]}"
+  refuses 2 "no output given" -- four.ppm "${where[@]}"
+  refuses 2 "no opening given: --aperture" -- four.ppm -o s.tif --focus 1 --width 1
+  refuses 2 "no focus given: --focus" -- four.ppm -o s.tif --aperture 1 --width 1
+  refuses 2 "--width" -- four.ppm -o s.tif --aperture 1 --focus 1
+  for aperture in 0 0x2 2x 1x-1 nan 1,2 x 1e999; do
+    refuses 2 "--aperture" "must be a positive number" -- four.ppm -o s.tif "${where[@]}" --aperture "$aperture"
+  done
+  refuses 2 "--uv 0x3: must be NxM" -- four.ppm -o s.tif "${where[@]}" --uv 0x3
+  refuses 2 "--white and --flux" -- four.ppm -o s.tif "${where[@]}" --white 1 --flux 1
+  refuses 2 "radiance_unit is \"lux\"" -- four.ppm -o s.tif "${where[@]}" --unit lux
+  refuses 2 "st_window" -- four.ppm -o s.tif --aperture 1 --focus 1e-200 --width 1e200
+  refuses 2 "area 0" -- four.ppm -o s.tif --aperture 1e-200 --focus 1 --width 1
+}
+
+@test "one pixel is a light of one colour; children that nobody waits for are no trouble" {
+  printf 'P3\n1 1\n255\n255 255 255\n' >one.ppm
+  (trap '' CHLD && "$BAKESLAB" projector one.ppm -o s.exr "${where[@]}")
+  [ "$("$BAKESLAB" lookup s.exr <<<'0 0 0  0.49 -0.49 2')" = "1 1 1" ]
+}
