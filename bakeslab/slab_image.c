@@ -22,6 +22,7 @@ struct scratch {
   char in[32];
 };
 
+static const char LETTERS[] = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 static const char OUT[] = "out.exr", SAID[] = "said", ERRORS[] = "errors";
 
 static void scratch_path(const struct scratch *scratch, const char *name, char path[600]) {
@@ -50,16 +51,9 @@ static enum slab_result scratch_make(struct scratch *scratch, const char *name, 
                                      size_t size, const char *suffix, bool *made,
                                      struct slab_error *error) {
   const char *temporary = getenv("TMPDIR");
-  char path[600], letters[16];
-  size_t n = 0;
+  char path[600];
   *made = false;
-  for (; n + 1 < sizeof letters &&
-         ((suffix[n] >= '0' && suffix[n] <= '9') || (suffix[n] >= 'a' && suffix[n] <= 'z') ||
-          (suffix[n] >= 'A' && suffix[n] <= 'Z'));
-       ++n)
-    letters[n] = suffix[n];
-  letters[n] = 0;
-  snprintf(scratch->in, sizeof scratch->in, "in.%s", letters);
+  snprintf(scratch->in, sizeof scratch->in, "in.%.*s", (int)strspn(suffix, LETTERS), suffix);
   int length = snprintf(scratch->folder, sizeof scratch->folder, "%s/slab-image-XXXXXX",
                         temporary && temporary[0] ? temporary : "/tmp");
   if (length >= (int)sizeof scratch->folder || !mkdtemp(scratch->folder))
