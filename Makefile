@@ -34,7 +34,7 @@ PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/null))$(PKG_LIBS)
 # What only renderslab uses. Embree 3 has no pkg-config file.
-RENDER_USED := assimp libpng
+RENDER_USED := assimp libpng epoxy egl
 RENDER_CFLAGS = $(eval RENDER_CFLAGS := -Irender $(shell pkg-config --cflags $(RENDER_USED) 2>/dev/null))$(RENDER_CFLAGS)
 RENDER_LIBS = $(eval RENDER_LIBS := -lembree3 $(shell pkg-config --libs $(RENDER_USED) 2>/dev/null))$(RENDER_LIBS)
 
@@ -54,7 +54,7 @@ quote = '$(subst ','\'',$(1))'
 # ---- Set-up: the Debian packages that the goals on the command line need.
 PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc) libc6-dev make pkg-config \
   libtiff-dev libopenexr-dev libjansson-dev libxxhash-dev \
-  libembree-dev libassimp-dev libpng-dev
+  libembree-dev libassimp-dev libpng-dev libepoxy-dev libegl-dev
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
 PACKAGES_lamps := povray povray-includes jq

@@ -180,6 +180,8 @@ static enum slab_result render(const struct arguments *arguments, const struct w
   const struct view_options *view = &arguments->view;
   const struct occlusion *shadows = arguments->no_shadows ? NULL : world->occlusion;
   struct progress progress;
+  struct gl_sum_settings gl = options_gl_settings(options, world->lights, &world->aids,
+                                                  arguments->no_shadows ? NULL : &world->scene);
   struct image_settings settings = {
       .shade = {.scene = &world->scene,
                 .occlusion = world->occlusion,
@@ -187,6 +189,7 @@ static enum slab_result render(const struct arguments *arguments, const struct w
                 .light_count = options->light_count},
       .camera = view->camera,
       .gather = options_settings(options, world->lights, &world->aids, shadows),
+      .gl = options->method == GATHER_GL ? &gl : NULL,
       .width = view->size[0],
       .height = view->size[1],
       .samples = arguments->samples,

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "commands.h"
+#include "gl_gather.h"
 #include "occlusion.h"
 #include "options.h"
 #include "receivers.h"
@@ -48,6 +49,7 @@ struct work {
   struct gather_settings settings;
   struct gather_aids aids;
   struct gather **gather; /* [threads] */
+  struct gl_gather *gl;   /* method gl, in place of `gather` */
   int threads;
   struct receivers receivers;
   struct gathered *gathered; /* [BLOCK] */
@@ -81,7 +83,10 @@ static enum slab_result answer(struct work *work, struct slab_error *error) {
     result = prepare_for_many(work, error);
     if (result == SLAB_OK) result = receivers_read(stdin, BLOCK, &work->receivers, error);
     int count = work->receivers.count, tiles = (count + TILE - 1) / TILE;
-    if (result == SLAB_OK) result = tiles_run(work->threads, tiles, work_tile, NULL, work, error);
+    if (result == SLAB_OK && work->gl)
+      result = gl_gather_light(work->gl, work->receivers.receiver, count, work->gathered, error);
+    else if (result == SLAB_OK)
+      result = tiles_run(work->threads, tiles, work_tile, NULL, work, error);
     for (int k = 0; k < count && result == SLAB_OK; ++k) {
       const double *rgb = work->gathered[k].irradiance;
       printf("%.9g %.9g %.9g\n", rgb[0], rgb[1], rgb[2]);
@@ -90,11 +95,14 @@ static enum slab_result answer(struct work *work, struct slab_error *error) {
   return result;
 }
 
-static enum slab_result prepare(struct work *work, struct slab_error *error) {
+/* `gl`: settings of the method gl, NULL for others. */
+static enum slab_result prepare(struct work *work, const struct gl_sum_settings *gl,
+                                struct slab_error *error) {
   work->gather = calloc((size_t)work->threads, sizeof *work->gather);
   work->gathered = calloc(BLOCK, sizeof *work->gathered);
   if (!work->gather || !work->gathered) return slab_fail(error, SLAB_MEMORY, "out of memory");
   enum slab_result result = SLAB_OK;
+  if (gl) return gl_gather_create(gl, &work->gl, error);
   for (int k = 0; k < work->threads && result == SLAB_OK; ++k)
     result = gather_create(&work->settings, &work->gather[k], error);
   return result;
@@ -105,6 +113,8 @@ static void finish(struct work *work, struct stats *stats) {
     if (work->gather[k]) stats_add_counts(&stats->counts, gather_counts(work->gather[k]));
     gather_free(work->gather[k]);
   }
+  if (work->gl) stats_add_counts(&stats->counts, gl_gather_counts(work->gl));
+  gl_gather_free(work->gl);
   free(work->gather);
   free(work->gathered);
   receivers_free(&work->receivers);
@@ -133,7 +143,10 @@ static enum slab_result run(const struct arguments *arguments, struct stats *sta
     stats_phase(stats, "prepare");
     result = gather_aids_make(lights, options->light_count, options->method, 0, options->threads,
                               &work.aids, error);
-    if (result == SLAB_OK) result = prepare(&work, error);
+    struct gl_sum_settings gl =
+        options_gl_settings(options, lights, &work.aids, arguments->mesh ? &scene : NULL);
+    if (result == SLAB_OK)
+      result = prepare(&work, options->method == GATHER_GL ? &gl : NULL, error);
     stats_phase(stats, "gather");
   }
   if (result == SLAB_OK) result = answer(&work, error);

@@ -3,6 +3,17 @@ RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(filter-out render/main.c,$(wildcard 
 
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
 
+# The shaders' texts, as C: gl_NAME_KIND of shaders/NAME.KIND.glsl.
+RENDER_OBJECTS += $(B)/render/gl_shaders.o
+$(B)/render/gl_shaders.c: $(sort $(wildcard render/shaders/*.glsl)) render/flat.mk
+	@mkdir -p $(@D)
+	@{ echo '#include "gl_program.h"'; for f in $(filter %.glsl,$^); do \
+	  name=$${f##*/}; name=$${name%.glsl}; echo "const char gl_$${name%.*}_$${name#*.}[] ="; \
+	  sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $$f; echo ';'; done; } >$@
+$(B)/render/gl_shaders.o: $(B)/render/gl_shaders.c
+	$(call say,CC,$<)
+	$(Q)$(CC) $(ALL_CFLAGS) $(RENDER_CFLAGS) -c $< -o $@
+
 $(B)/librender.a: $(RENDER_OBJECTS)
 
 $(RENDER_BIN): $(B)/render/main.o $(B)/librender.a $(B)/libslab.a

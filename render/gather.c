@@ -44,7 +44,7 @@ struct gather {
   int waiting;            /* sums that are prepared */
 };
 
-static const char *const method_names[GATHER_METHODS] = {
+static const char *const method_names[GATHER_METHODS + 1] = {
     [GATHER_AUTO] = "auto",
     [GATHER_REFERENCE] = "reference",
     [GATHER_PAPER] = "paper",
@@ -55,6 +55,7 @@ static const char *const method_names[GATHER_METHODS] = {
     [GATHER_LEVELS] = "levels",
     [GATHER_PAPER_LEVELS] = "paper-levels",
     [GATHER_CUT] = "cut",
+    [GATHER_GL] = "gl",
 };
 
 const char *gather_method_name(enum gather_method method) {

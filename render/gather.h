@@ -23,10 +23,12 @@ enum gather_method {
   GATHER_PAPER_LEVELS, /* the same as published: averaged on the fly, one random sample */
   GATHER_CUT,          /* blocks of views, as few as the tolerance allows (cut.h); micro lights
                           where that is no faster, and behind occluders */
-  GATHER_METHODS
+  GATHER_METHODS,
+  GATHER_GL = GATHER_METHODS /* as GATHER_VIEWS, by a graphics processor: gl_gather.h */
 };
 
 const char *gather_method_name(enum gather_method method);
+/* Knows all but GATHER_GL. */
 bool gather_method_parse(const char *name, enum gather_method *method);
 
 /* Someone in the scene who gathers light. `index` seeds the method `paper`. */

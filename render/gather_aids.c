@@ -11,7 +11,7 @@ enum slab_result gather_aids_make(const struct light *lights, int count, enum ga
   enum slab_result result = SLAB_OK;
   gather_aids_free(aids);
   for (int l = 0; l < count; ++l) aids->pages += lights[l].count;
-  bool levels = method == GATHER_LEVELS || method == GATHER_PAPER_LEVELS;
+  bool levels = method == GATHER_LEVELS || method == GATHER_PAPER_LEVELS || method == GATHER_GL;
   bool trees = method == GATHER_CUT || (method == GATHER_AUTO && receivers >= GATHER_MANY);
   if (!levels && !trees) return SLAB_OK;
   if (levels)

@@ -54,19 +54,24 @@ static struct area area_of(const struct image *image, int tile) {
   return area;
 }
 
+void image_trace(const struct image_settings *settings, int x, int y, int sample,
+                 struct shade_hit *hit) {
+  int grid = settings->samples;
+  double dx = (sample % grid + 0.5) / grid, dy = (sample / grid + 0.5) / grid, direction[3];
+  uint64_t number = (uint64_t)y * (uint64_t)settings->width + (uint64_t)x;
+  uint64_t index = number * (uint64_t)(grid * grid) + (uint64_t)sample;
+  camera_ray(&settings->camera, settings->width, settings->height, x + dx, y + dy, direction);
+  shade_ray(&settings->shade, settings->camera.from, direction, index, hit);
+}
+
 /* Ray number `sample` of each pixel of the area. Returns how many receivers there are. */
 static int trace(const struct image_settings *settings, struct area area, int sample,
                  struct worker *worker) {
-  int count = 0, grid = settings->samples;
-  double dx = (sample % grid + 0.5) / grid, dy = (sample / grid + 0.5) / grid;
+  int count = 0;
   for (int pixel = 0; pixel < area.width * area.height; ++pixel) {
-    int x = area.left + pixel % area.width, y = area.top + pixel / area.width;
-    uint64_t number = (uint64_t)y * (uint64_t)settings->width + (uint64_t)x;
-    uint64_t index = number * (uint64_t)(grid * grid) + (uint64_t)sample;
-    double direction[3];
-    camera_ray(&settings->camera, settings->width, settings->height, x + dx, y + dy, direction);
     struct shade_hit *hit = &worker->hits[pixel];
-    shade_ray(&settings->shade, settings->camera.from, direction, index, hit);
+    image_trace(settings, area.left + pixel % area.width, area.top + pixel / area.width, sample,
+                hit);
     if (hit->lit) worker->receivers[count++] = hit->receiver;
   }
   return count;
@@ -206,29 +211,40 @@ static void sum_up(const struct image *image, struct image_report *report) {
   report->counts.error = report->error;
 }
 
-enum slab_result image_render(const struct image_settings *settings, struct slab_picture *picture,
-                              struct image_report *report, struct slab_error *error) {
+/* By the CPU: tile by tile. */
+static enum slab_result render_tiles(const struct image_settings *settings,
+                                     struct slab_picture *picture, struct image_report *report,
+                                     struct slab_error *error) {
   int columns = (settings->width + IMAGE_TILE - 1) / IMAGE_TILE;
   int rows = (settings->height + IMAGE_TILE - 1) / IMAGE_TILE;
-  size_t pixels = (size_t)settings->width * (size_t)settings->height;
   struct image image = {
       .settings = settings, .picture = picture, .columns = columns, .count = columns * rows};
+  enum slab_result result = SLAB_OK;
+  image.workers = calloc((size_t)settings->threads, sizeof *image.workers);
+  image.tiles = calloc((size_t)image.count, sizeof *image.tiles);
+  if (!image.workers || !image.tiles) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  for (int k = 0; result == SLAB_OK && k < image.count; ++k) image.tiles[k].number = k;
+  if (result == SLAB_OK) result = run_passes(&image, report, error);
+  if (result == SLAB_OK) sum_up(&image, report);
+  free(image.workers);
+  free(image.tiles);
+  return result;
+}
+
+enum slab_result image_render(const struct image_settings *settings, struct slab_picture *picture,
+                              struct image_report *report, struct slab_error *error) {
+  size_t pixels = (size_t)settings->width * (size_t)settings->height;
   enum slab_result result = SLAB_OK;
   *report = (struct image_report){0};
   *picture = (struct slab_picture){.width = settings->width,
                                    .height = settings->height,
                                    .rgb = calloc(pixels, 3 * sizeof(float)),
                                    .error = calloc(pixels, 3 * sizeof(float))};
-  image.workers = calloc((size_t)settings->threads, sizeof *image.workers);
-  image.tiles = calloc((size_t)image.count, sizeof *image.tiles);
-  if (!picture->rgb || !picture->error || !image.workers || !image.tiles)
+  if (!picture->rgb || !picture->error)
     result = slab_fail(error, SLAB_MEMORY, "out of memory for a picture of %dx%d", settings->width,
                        settings->height);
-  for (int k = 0; result == SLAB_OK && k < image.count; ++k) image.tiles[k].number = k;
-  if (result == SLAB_OK) result = run_passes(&image, report, error);
-  if (result == SLAB_OK) sum_up(&image, report);
-  free(image.workers);
-  free(image.tiles);
+  if (result == SLAB_OK)
+    result = (settings->gl ? image_render_gl : render_tiles)(settings, picture, report, error);
   if (result != SLAB_OK) slab_picture_free(picture);
   return result;
 }

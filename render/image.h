@@ -9,6 +9,7 @@
 
 #include "camera.h"
 #include "gather.h"
+#include "gl_sum.h"
 #include "shade.h"
 #include "slab_exr.h"
 #include "tiles.h"
@@ -19,10 +20,11 @@ struct image_settings {
   struct shade shade;
   struct camera camera;
   struct gather_settings gather;
-  int width, height;        /* 1..IMAGE_MOST_SIZE */
-  int samples;              /* N, 1..IMAGE_MOST_SAMPLES */
-  int threads;              /* >= 1 */
-  tiles_progress *progress; /* may be NULL */
+  const struct gl_sum_settings *gl; /* for the method gl, which takes the place of `gather` */
+  int width, height;                /* 1..IMAGE_MOST_SIZE */
+  int samples;                      /* N, 1..IMAGE_MOST_SAMPLES */
+  int threads;                      /* >= 1 */
+  tiles_progress *progress;         /* may be NULL */
   void *progress_context;
   double until; /* on progress_now's clock; 0: as long as it takes */
 };
@@ -44,5 +46,15 @@ struct image_report {
  * Edges of shadows follow: to about half the tolerance of a pass. */
 enum slab_result image_render(const struct image_settings *settings, struct slab_picture *picture,
                               struct image_report *report, struct slab_error *error);
+
+/* Of image_gl.c: the same by the method gl; image_render calls it. Allocates nothing in the
+ * picture. */
+enum slab_result image_render_gl(const struct image_settings *settings,
+                                 struct slab_picture *picture, struct image_report *report,
+                                 struct slab_error *error);
+
+/* Ray number `sample` of a pixel. */
+void image_trace(const struct image_settings *settings, int x, int y, int sample,
+                 struct shade_hit *hit);
 
 #endif

@@ -21,12 +21,22 @@ enum {
   OPTION_REPAIR,
   OPTION_EFFECTS,
   OPTION_SHADOW_GRID,
-  OPTION_SHADOW_EDGE
+  OPTION_SHADOW_EDGE,
+  OPTION_SHADOW_MAP,
+  OPTION_SHADOW_GROUPS,
+  OPTION_GL_PASSES
 };
 
 static const double least_tolerance = 1e-12;
 
-enum { MOST_THREADS = 1024, MOST_LEVEL = 30, MOST_SHADOW_GRID = 256, MOST_SHADOW_EDGE = 65536 };
+enum {
+  MOST_THREADS = 1024,
+  MOST_LEVEL = 30,
+  MOST_SHADOW_GRID = 256,
+  MOST_SHADOW_EDGE = 65536,
+  MOST_SHADOW_MAP = 16384,
+  MOST_SHADOW_GROUPS = 1024
+};
 
 bool options_number(const char *text, double *number) {
   const char *end;
@@ -56,9 +66,13 @@ static int parse_count(const char *option, const char *text, int high, struct ar
 
 static void parse_method(const char *name, struct options *options, struct argp_state *state) {
   if (gather_method_parse(name, &options->method)) return;
+  if (!strcmp(name, gather_method_name(GATHER_GL))) {
+    options->method = GATHER_GL;
+    return;
+  }
   char known[256] = "";
   size_t used = 0;
-  for (int k = 0; k < GATHER_METHODS && used < sizeof known; ++k)
+  for (int k = 0; k <= GATHER_GL && used < sizeof known; ++k)
     used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "",
                              gather_method_name((enum gather_method)k));
   argp_error(state, "--method %s: there are %s", name, known);
@@ -95,6 +109,7 @@ static error_t parse_lights(int key, char *value, struct argp_state *state) {
 static void set_defaults(struct options *options) {
   options->method = GATHER_AUTO;
   options->level = -1;
+  options->shadow_map = 2048;
 }
 
 /* Shadows as fine as the tolerance calls for, where that decides what is summed. */
@@ -159,6 +174,17 @@ static error_t parse_sum(int key, char *value, struct argp_state *state) {
   case OPTION_SHADOW_EDGE:
     options->shadow_edge = parse_count("--shadow-edge", value, MOST_SHADOW_EDGE, state);
     return 0;
+  case OPTION_SHADOW_MAP:
+    options->shadow_map = parse_count("--shadow-map", value, MOST_SHADOW_MAP, state);
+    return 0;
+  case OPTION_SHADOW_GROUPS:
+    options->shadow_groups = parse_count("--shadow-groups", value, MOST_SHADOW_GROUPS, state);
+    return 0;
+  case OPTION_GL_PASSES:
+    if (strcmp(value, "one") && strcmp(value, "views"))
+      argp_error(state, "--gl-passes %s: there are one and views", value);
+    options->gl_separate = !strcmp(value, "views");
+    return 0;
   case ARGP_KEY_SUCCESS:
     finish(options, state);
     return 0;
@@ -179,12 +205,14 @@ static const struct argp_option light_options[] = {
 static const struct argp_option sum_options[] = {
     {"method", OPTION_METHOD, "METHOD", 0,
      "How light is summed: auto (the default), reference, paper, midpoint, pi, closed, views, "
-     "levels, paper-levels or cut",
+     "levels, paper-levels, cut or gl",
      0},
     {"tolerance", OPTION_TOLERANCE, "T", 0,
      "Relative error that is allowed (default 0.01; 1e-6 for reference)", 0},
     {"level", OPTION_LEVEL, "K", 0,
-     "Level of the hierarchy, for the methods levels and paper-levels (default: by solid angle)",
+     "Level of the hierarchy, for the methods levels and paper-levels (default: by solid angle) "
+     "and "
+     "gl (default: 0)",
      0},
     {"effects", OPTION_EFFECTS, "auto|all", 0,
      "auto (the default) traces no shadow rays where nothing stands between and sums nothing "
@@ -197,6 +225,14 @@ static const struct argp_option sum_options[] = {
     {"shadow-edge", OPTION_SHADOW_EDGE, "N", 0,
      "and at edges of shadows in parts of 1/N of its sides (default 256; 64 where blocks are 8)",
      0},
+    {"shadow-map", OPTION_SHADOW_MAP, "N", 0,
+     "Method gl: shadow maps of N x N texels (default 2048)", 0},
+    {"shadow-groups", OPTION_SHADOW_GROUPS, "G", 0,
+     "Method gl: G x G shadow maps a page, each for a group of views, so that rims of shadows err "
+     "by up to 1/(2G) of the light (default: one for each view)",
+     0},
+    {"gl-passes", OPTION_GL_PASSES, "one|views", 0,
+     "Method gl: all views in one pass (the default), or one after the other, as published", 0},
     {"threads", OPTION_THREADS, "N", 0, "Threads (default: one a processor); same result", 0},
     {"seed", OPTION_SEED, "N", 0, "Of the methods paper and paper-levels (default 0)", 0},
     {"stats", OPTION_STATS, "FILE", 0, "Write what was done, and its time, as JSON", 0},
@@ -247,4 +283,18 @@ struct gather_settings options_settings(const struct options *options, const str
                                   .occlusion = occlusion,
                                   .shadow_grid = options->shadow_grid,
                                   .shadow_edge = options->shadow_edge};
+}
+
+struct gl_sum_settings options_gl_settings(const struct options *options,
+                                           const struct light *lights,
+                                           const struct gather_aids *aids,
+                                           const struct scene *occluders) {
+  return (struct gl_sum_settings){.lights = lights,
+                                  .light_count = options->light_count,
+                                  .levels = aids->levels,
+                                  .level = options->level,
+                                  .occluders = occluders,
+                                  .map_size = options->shadow_map,
+                                  .groups = options->shadow_groups,
+                                  .separate = options->gl_separate};
 }

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "gather.h"
+#include "gl_sum.h"
 
 struct options {
   const char **lights; /* texts of --light, in order; the array is owned */
@@ -19,8 +20,10 @@ struct options {
   uint64_t seed;             /* 0 */
   const char *stats;         /* NULL: none */
   bool repair;
-  bool all_effects;             /* false: skip what cannot be seen */
-  int shadow_grid, shadow_edge; /* 16, 256; coarser where the tolerance allows */
+  bool all_effects;              /* false: skip what cannot be seen */
+  int shadow_grid, shadow_edge;  /* 16, 256; coarser where the tolerance allows */
+  int shadow_map, shadow_groups; /* of method gl: 2048, 0 (each view) */
+  bool gl_separate;              /* method gl: a pass for each view */
 };
 
 /* Shadows, unless the tolerance allows less. */
@@ -46,6 +49,12 @@ void options_free_lights(struct light *lights, int count); /* NULL allowed */
 struct gather_settings options_settings(const struct options *options, const struct light *lights,
                                         const struct gather_aids *aids,
                                         const struct occlusion *occlusion);
+
+/* How to sum by the method gl; `occluders` may be NULL. */
+struct gl_sum_settings options_gl_settings(const struct options *options,
+                                           const struct light *lights,
+                                           const struct gather_aids *aids,
+                                           const struct scene *occluders);
 
 /* The whole text is one finite number; one whole number from `low` to `high`; `count` finite
  * numbers with commas between them. */

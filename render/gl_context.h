@@ -1,0 +1,33 @@
+/* gl_context.h - OpenGL 4.3 without a window (by EGL), and what is asked of any context.
+ *
+ * A context belongs to the thread that made it. Messages say what is missing, and that
+ * --method views is the same sum on the CPU. */
+#ifndef GL_CONTEXT_H
+#define GL_CONTEXT_H
+
+#include "slab_error.h"
+
+struct gl_context; /* owned by whoever created it */
+
+/* Makes a context and makes it current. */
+enum slab_result gl_context_create(struct gl_context **context, struct slab_error *error);
+void gl_context_free(struct gl_context *context); /* NULL allowed */
+
+struct gl_limits {
+  int texture;    /* samples along a side of a texture */
+  int layers;     /* of a texture array */
+  int buffer;     /* texels of a buffer that is read as a texture */
+  char name[128]; /* of the renderer */
+};
+
+/* Checks the current context: version, float targets. */
+enum slab_result gl_context_check(struct gl_limits *limits, struct slab_error *error);
+
+/* As slab_fail, with the way out put behind it. */
+enum slab_result gl_fail(struct slab_error *error, enum slab_result result, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* What OpenGL has to complain about, if anything. `what` was being done: "the shadow maps". */
+enum slab_result gl_check(const char *what, struct slab_error *error);
+
+#endif
