@@ -76,6 +76,7 @@ whole() {
   cat >"$1-whole.pov" <<POV
 #version 3.7;
 #declare Canned_Bake_Effects = "$effects";
+#declare Canned_Bake_Photons = 4000000;
 #include "$1.pov"
 #include "square.inc"
 object { Square pigment { rgb 0.8 } finish { diffuse 1 ambient 0 } no_radiosity }
