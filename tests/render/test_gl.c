@@ -1,0 +1,200 @@
+/* test_gl.c - the method gl against a plain sum over views, in double precision, with shadow
+ * rays that are met by arithmetic on rectangles. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "helpers.h"
+#include "slab_resample.h"
+#include "vector.h"
+
+static const double window[4] = {-1.3, 1.2, -1.1, 1.4};
+
+/* A rectangle that stands in the way, spanned by two edges; NULL: none. */
+struct screen {
+  double corner[3], along[2][3];
+};
+
+static bool meets(const struct screen *screen, const double from[3], const double to[3]) {
+  double normal[3], step[3], offset[3];
+  vector_cross(screen->along[0], screen->along[1], normal);
+  vector_subtract(to, from, step);
+  vector_subtract(screen->corner, from, offset);
+  double share = vector_dot(offset, normal) / vector_dot(step, normal);
+  if (!(share > 1e-9 && share < 1 - 1e-9)) return false;
+  for (int axis = 0; axis < 2; ++axis) {
+    double at = 0, square = vector_dot(screen->along[axis], screen->along[axis]);
+    for (int c = 0; c < 3; ++c)
+      at += (from[c] + share * step[c] - screen->corner[c]) * screen->along[axis][c];
+    if (!(at > 0 && at < square)) return false;
+  }
+  return true;
+}
+
+/* Irradiance by one ray to the middle of each view's cell. */
+static void sum_views(const struct slab *slab, const struct receiver *receiver,
+                      const struct screen *screen, double rgb[3]) {
+  const int *n = slab->samples;
+  double area = vector_length(slab->u) * vector_length(slab->v) / (n[SLAB_U] * n[SLAB_V]);
+  for (int j = 0; j < n[SLAB_V]; ++j)
+    for (int i = 0; i < n[SLAB_U]; ++i) {
+      double a = slab_position(slab, SLAB_U, i), b = slab_position(slab, SLAB_V, j);
+      double point[3], ray[3], abst[4], light[3];
+      slab_point(slab, a, b, 0, point);
+      vector_subtract(receiver->p, point, ray);
+      double r2 = vector_dot(ray, ray), in = -vector_dot(ray, receiver->n);
+      if (!slab_ray(slab, point, ray, abst) || in <= 0) continue;
+      if (screen && meets(screen, receiver->p, point)) continue;
+      slab_lookup(slab, a, b, abst[2], abst[3], light);
+      for (int c = 0; c < 3; ++c)
+        rgb[c] += area * light[c] * in * vector_dot(ray, slab->normal) / (r2 * r2);
+    }
+}
+
+/* Relative root mean square of the difference. */
+static double rms(double (*a)[3], double (*b)[3], int count) {
+  double off = 0, all = 0;
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < 3; ++c) {
+      off += (a[k][c] - b[k][c]) * (a[k][c] - b[k][c]);
+      all += b[k][c] * b[k][c];
+    }
+  return sqrt(off / all);
+}
+
+static double got[COUNT_MAX][3], right[COUNT_MAX][3];
+static struct receiver receivers[COUNT_MAX];
+
+static void aim(const struct slab *slab, int count, double nearest, double farthest) {
+  uint32_t seed = 7;
+  for (int k = 0; k < count; ++k) {
+    double z = nearest * pow(farthest / nearest, random_number(&seed));
+    receivers[k] = aimed_receiver(slab, z, (enum receiver_kind)(k % RECEIVER_KINDS), &seed);
+  }
+}
+
+static void expect_sums(const struct slab *slabs, int pages, const struct screen *screen,
+                        int count) {
+  memset(right, 0, sizeof right);
+  for (int k = 0; k < count; ++k)
+    for (int page = 0; page < pages; ++page)
+      sum_views(&slabs[page], &receivers[k], screen, right[k]);
+}
+
+/* Every frame, mirrored ones too, both st planes, near and far; and a pass for each view. */
+static void sums_over_views(void **state) {
+  (void)state;
+  static const int samples[SLAB_AXES] = {5, 4, 9, 7};
+  static const double distances[] = {INFINITY, 1.7};
+  need_program();
+  for (int frame = FRAME_PLAIN; frame <= FRAME_MIRRORED; ++frame)
+    for (int d = 0; d < 2; ++d) {
+      struct slab slab =
+          rough_slab(samples, distances[d], window, (enum frame)frame, FILL_UNIFORM, 3);
+      const char *file = write_light("views.tif", &slab, 1);
+      aim(&slab, 300, 0.2, 50);
+      expect_sums(&slab, 1, NULL, 300);
+      irradiance(receivers, 300, got, "--light %s --method gl", file);
+      assert_near(rms(got, right, 300), 0, 2e-5);
+      irradiance(receivers, 300, got, "--light %s --method gl --gl-passes views", file);
+      assert_near(rms(got, right, 300), 0, 2e-5);
+      slab_free(&slab);
+    }
+}
+
+/* Two pages, two lights, gains that differ by 10^12. */
+static void lights_and_pages_add_up(void **state) {
+  (void)state;
+  static const int samples[2][SLAB_AXES] = {{3, 4, 5, 6}, {6, 2, 4, 9}};
+  need_program();
+  struct slab slabs[2];
+  for (int k = 0; k < 2; ++k)
+    slabs[k] = rough_slab(samples[k], k ? 2 : INFINITY, window, FRAME_TURNED, FILL_SIGNED, 5);
+  const char *file = write_light("pages.tif", slabs, 2);
+  aim(&slabs[0], 200, 0.3, 30);
+  expect_sums(slabs, 2, NULL, 200);
+  for (int k = 0; k < 200; ++k)
+    for (int c = 0; c < 3; ++c) right[k][c] *= 1e12 + 1;
+  irradiance(receivers, 200, got, "--light '%s gain=1e12' --light %s --method gl", file, file);
+  assert_near(rms(got, right, 200), 0, 2e-5);
+  for (int k = 0; k < 2; ++k) slab_free(&slabs[k]);
+}
+
+/* 48 x 50 views are more than a texture array's 2048 layers; some of them are black. */
+static void more_views_than_layers(void **state) {
+  (void)state;
+  static const int samples[SLAB_AXES] = {48, 50, 3, 3};
+  need_program();
+  struct slab slab = rough_slab(samples, INFINITY, window, FRAME_TURNED, FILL_UNIFORM, 9);
+  for (int j = 0; j < 4; ++j) memset(slab_at(&slab, 0, 3 * j, 0, 0), 0, 9 * sizeof(float));
+  const char *file = write_light("many.tif", &slab, 1);
+  aim(&slab, 60, 0.3, 30);
+  expect_sums(&slab, 1, NULL, 60);
+  irradiance(receivers, 60, got, "--light %s --method gl", file);
+  assert_near(rms(got, right, 60), 0, 2e-5);
+  slab_free(&slab);
+}
+
+/* Levels of the hierarchy have fewer views of the same energy: far away the same light. */
+static void levels_keep_the_light(void **state) {
+  (void)state;
+  static const int samples[SLAB_AXES] = {8, 8, 6, 6};
+  need_program();
+  struct slab slab = rough_slab(samples, INFINITY, window, FRAME_PLAIN, FILL_UNIFORM, 11), half;
+  const char *file = write_light("level.tif", &slab, 1);
+  static const int fewer[SLAB_AXES] = {2, 2, 6, 6};
+  assert_int_equal(slab_resample(&slab, fewer, &half, NULL), SLAB_OK);
+  aim(&slab, 200, 5, 50);
+  expect_sums(&half, 1, NULL, 200);
+  irradiance(receivers, 200, got, "--light %s --method gl --level 2", file);
+  assert_near(rms(got, right, 200), 0, 2e-5);
+  slab_free(&slab);
+  slab_free(&half);
+}
+
+/* The flux through a plane in front is the slab's, whatever its resolution. */
+static void energy_is_independent_of_resolution(void **state) {
+  (void)state;
+  enum { SIDE = 60 };
+  static const double narrow[4] = {-0.5, 0.5, -0.5, 0.5};
+  static const int samples[SLAB_AXES] = {12, 12, 12, 12};
+  need_program();
+  struct slab slab = rough_slab(samples, INFINITY, narrow, FRAME_PLAIN, FILL_UNIFORM, 13), other;
+  double flux[3];
+  /* Black at the window's rim: the light on the plane is continuous. */
+  for (size_t pixel = 0; pixel < slab_sample_count(&slab); ++pixel) {
+    int at[SLAB_AXES];
+    slab_locate(&slab, pixel, at);
+    if (at[SLAB_S] % 11 == 0 || at[SLAB_T] % 11 == 0)
+      memset(slab_at(&slab, at[0], at[1], at[2], at[3]), 0, 3 * sizeof(float));
+  }
+  slab_flux(&slab, flux);
+  for (int n = 12; n >= 3; n /= 2) {
+    int coarse[SLAB_AXES] = {n, n, 12, 12};
+    double sum = 0, z = 2, half = 1.6, area = 4 * half * half / (SIDE * SIDE);
+    assert_int_equal(slab_resample(&slab, coarse, &other, NULL), SLAB_OK);
+    for (int k = 0; k < SIDE * SIDE; ++k) {
+      double a = ((k % SIDE + 0.5) / SIDE * 2 - 1) * half;
+      double b = ((k / SIDE + 0.5) / SIDE * 2 - 1) * half; /* NOLINT(bugprone-integer-division) */
+      receivers[k] = (struct receiver){.n = {-slab.normal[0], -slab.normal[1], -slab.normal[2]}};
+      slab_point(&slab, a, b, z, receivers[k].p);
+    }
+    irradiance(receivers, SIDE * SIDE, got, "--light %s --method gl",
+               write_light("energy.tif", &other, 1));
+    for (int k = 0; k < SIDE * SIDE; ++k) sum += area * got[k][1];
+    assert_near(sum / flux[1], 1, 5e-3);
+    slab_free(&other);
+  }
+  slab_free(&slab);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(sums_over_views),
+      cmocka_unit_test(lights_and_pages_add_up),
+      cmocka_unit_test(more_views_than_layers),
+      cmocka_unit_test(levels_keep_the_light),
+      cmocka_unit_test(energy_is_independent_of_resolution),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
