@@ -190,12 +190,12 @@ enum slab_result gl_slides_create(const struct light_page *page, double gain,
   struct candidate *found = calloc(views, sizeof *found);
   slides->at = calloc(views, sizeof *slides->at);
   slides->middle = calloc(views, sizeof *slides->middle);
-  if (!found || !slides->at || !slides->middle)
+  if (!found || !slides->at || !slides->middle) {
     result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  if (result == SLAB_OK) slides->count = find_views(slab, groups, found);
-  if (slides->count > 0) {
+  } else {
+    slides->count = find_views(slab, groups, found);
     place(found, groups, limits->layers, slides);
-    result = upload(found, limits->layers, slides, error);
+    if (slides->count > 0) result = upload(found, limits->layers, slides, error);
   }
   free(found);
   if (result != SLAB_OK) gl_slides_free(slides);
