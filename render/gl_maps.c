@@ -34,12 +34,13 @@ static enum slab_result upload(const struct scene *scene, const double origin[3]
   return gl_check("the mesh", error);
 }
 
-static enum slab_result make_layers(const struct gl_limits *limits, struct gl_maps *maps,
-                                    struct slab_error *error) {
-  double layer = 4.0 * maps->size * maps->size;
-  maps->room = (int)(most_memory / layer);
-  if (maps->room < 1) maps->room = 1;
-  if (maps->room > limits->layers) maps->room = limits->layers;
+int gl_maps_most(int size, const struct gl_limits *limits) {
+  int most = (int)(most_memory / (4.0 * size * size));
+  if (most < 1) return 1;
+  return most < limits->layers ? most : limits->layers;
+}
+
+static enum slab_result make_layers(struct gl_maps *maps, struct slab_error *error) {
   glGenTextures(1, &maps->texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, maps->texture);
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, maps->size, maps->size, maps->room);
@@ -50,15 +51,15 @@ static enum slab_result make_layers(const struct gl_limits *limits, struct gl_ma
 }
 
 enum slab_result gl_maps_create(const struct scene *scene, const double origin[3], int size,
-                                const struct gl_limits *limits, struct gl_maps *maps,
+                                int room, const struct gl_limits *limits, struct gl_maps *maps,
                                 struct slab_error *error) {
-  *maps = (struct gl_maps){.size = size};
+  *maps = (struct gl_maps){.size = size, .room = room};
   if (size > limits->texture)
     return gl_fail(error, SLAB_BAD, "--shadow-map %d: this driver's textures have %d texels a side",
                    size, limits->texture);
   enum slab_result result = gl_program_make(gl_map_vert, gl_map_frag, "", &maps->program, error);
   if (result == SLAB_OK) result = upload(scene, origin, maps, error);
-  if (result == SLAB_OK) result = make_layers(limits, maps, error);
+  if (result == SLAB_OK) result = make_layers(maps, error);
   if (result != SLAB_OK) gl_maps_free(maps);
   return result;
 }
@@ -91,7 +92,8 @@ static void set_window(const struct gl_slides *slides, unsigned program) {
   gl_set_floats(program, "near", 1, &near);
 }
 
-void gl_maps_draw(struct gl_maps *maps, const struct gl_slides *slides, int first, int count) {
+void gl_maps_draw(struct gl_maps *maps, const struct gl_slides *slides, int first, int count,
+                  int layer) {
   static const float nothing = 0;
   glBindFramebuffer(GL_FRAMEBUFFER, maps->target);
   glBindVertexArray(maps->mesh);
@@ -104,7 +106,7 @@ void gl_maps_draw(struct gl_maps *maps, const struct gl_slides *slides, int firs
   gl_set_floats(maps->program, "center", 3, slides->center);
   gl_set_frame(maps->program, slides->page->frame);
   for (int k = 0; k < count; ++k) {
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps->texture, 0, k);
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps->texture, 0, layer + k);
     glClearBufferfv(GL_DEPTH, 0, &nothing);
     gl_set_floats(maps->program, "at", 2, slides->middle[first + k]);
     glDrawElements(GL_TRIANGLES, maps->indices, GL_UNSIGNED_INT, NULL);

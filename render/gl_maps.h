@@ -1,5 +1,5 @@
 /* gl_maps.h - shadow maps: what stands next to a point of an aperture, in all directions of the
- * window. A few are kept at a time, as the layers of one texture.
+ * window. They are the layers of one texture, which has room for some at a time.
  *
  * A shadow's edge is off by at most a texel of the map, and things nearer than a texel to what
  * they stand on throw none there. A map that several views share stands in the middle of
@@ -22,16 +22,21 @@ struct gl_maps {
   uint64_t drawn;
 };
 
+/* How many maps of size x size texels there is room for. */
+int gl_maps_most(int size, const struct gl_limits *limits);
+
 /* The scene's triangles are copied, relative to `origin`. */
 enum slab_result gl_maps_create(const struct scene *scene, const double origin[3], int size,
-                                const struct gl_limits *limits, struct gl_maps *maps,
+                                int room, const struct gl_limits *limits, struct gl_maps *maps,
                                 struct slab_error *error);
 void gl_maps_free(struct gl_maps *maps); /* zeroed maps allowed */
 
-/* Draws the maps of groups first to first + count - 1, count <= room, into layers from 0. */
-void gl_maps_draw(struct gl_maps *maps, const struct gl_slides *slides, int first, int count);
+/* Draws the maps of `count` groups from `first` on into layers from `layer` on. */
+void gl_maps_draw(struct gl_maps *maps, const struct gl_slides *slides, int first, int count,
+                  int layer);
 
-/* What a program that reads the maps has to know; `unit` is the first of two texture units. */
+/* What a program that reads the maps has to know; `first` is the group whose map is, or would
+ * be, in layer 0, and `unit` the first of two texture units. */
 void gl_maps_set(const struct gl_maps *maps, const struct gl_slides *slides, int first,
                  unsigned program, int unit);
 

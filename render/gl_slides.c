@@ -42,7 +42,7 @@ static bool is_black(const struct slab *slab, int i, int j) {
 }
 
 /* The views that are not black, in their order. Returns how many. */
-static int find_views(const struct slab *slab, int groups, struct candidate *views) {
+static int find_views(const struct slab *slab, int groups, bool together, struct candidate *views) {
   const int *n = slab->samples;
   int count = 0;
   for (int j = 0; j < n[SLAB_V]; ++j)
@@ -52,7 +52,7 @@ static int find_views(const struct slab *slab, int groups, struct candidate *vie
       *view = (struct candidate){.i = i, .j = j, .group = {i, j}, .key = spread(i, j)};
       if (groups > 0 && groups < n[SLAB_U]) view->group[0] = i * groups / n[SLAB_U];
       if (groups > 0 && groups < n[SLAB_V]) view->group[1] = j * groups / n[SLAB_V];
-      view->group_key = spread(view->group[0], view->group[1]);
+      if (together) view->group_key = spread(view->group[0], view->group[1]);
     }
   qsort(views, (size_t)count, sizeof *views, by_key);
   return count;
@@ -60,6 +60,22 @@ static int find_views(const struct slab *slab, int groups, struct candidate *vie
 
 static double position(const struct light_axis *axis, double index, int count) {
   return ((index + 0.5) / count - 0.5) * 2 * axis->half;
+}
+
+/* Numbers the groups in order of their first views. */
+static enum slab_result number_groups(const struct candidate *views, struct gl_slides *slides,
+                                      struct slab_error *error) {
+  size_t columns = (size_t)slides->page->axes[0].near_count;
+  int *numbers = calloc(columns * (size_t)slides->page->axes[1].near_count, sizeof *numbers);
+  if (!numbers) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  for (int k = 0; k < slides->count; ++k) {
+    const int *group = views[k].group;
+    int *number = &numbers[(size_t)group[1] * columns + (size_t)group[0]];
+    if (*number == 0) *number = ++slides->groups;
+    slides->at[k][3] = *number - 1;
+  }
+  free(numbers);
+  return SLAB_OK;
 }
 
 /* Where the views and the middles of their groups are. */
@@ -70,11 +86,7 @@ static void place(const struct candidate *views, int groups, int layers, struct 
     slides->group_half[axis] = axes[axis].half / parts;
     for (int k = 0; k < slides->count; ++k) {
       slides->at[k][axis] = position(&axes[axis], axis ? views[k].j : views[k].i, n);
-      if (axis == 0) {
-        slides->at[k][2] = k % layers;
-        slides->groups += k == 0 || views[k].group_key != views[k - 1].group_key;
-        slides->at[k][3] = slides->groups - 1;
-      }
+      slides->at[k][2] = k % layers;
       /* The middle of the views' own cells: groups need not be of one size. */
       int group = (int)slides->at[k][3], first = (views[k].group[axis] * n + parts - 1) / parts;
       int end = ((views[k].group[axis] + 1) * n + parts - 1) / parts;
@@ -178,7 +190,7 @@ static enum slab_result check(const struct slab *slab, const struct gl_limits *l
 }
 
 enum slab_result gl_slides_create(const struct light_page *page, double gain,
-                                  const double origin[3], int groups,
+                                  const double origin[3], int groups, bool together,
                                   const struct gl_limits *limits, struct gl_slides *slides,
                                   struct slab_error *error) {
   const struct slab *slab = &page->slab;
@@ -190,12 +202,16 @@ enum slab_result gl_slides_create(const struct light_page *page, double gain,
   struct candidate *found = calloc(views, sizeof *found);
   slides->at = calloc(views, sizeof *slides->at);
   slides->middle = calloc(views, sizeof *slides->middle);
-  if (!found || !slides->at || !slides->middle) {
+  slides->drawn = calloc(views, sizeof *slides->drawn);
+  if (!found || !slides->at || !slides->middle || !slides->drawn)
     result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  } else {
-    slides->count = find_views(slab, groups, found);
+  if (result == SLAB_OK) {
+    slides->count = find_views(slab, groups, together, found);
+    result = number_groups(found, slides, error);
+  }
+  if (result == SLAB_OK && slides->count > 0) {
     place(found, groups, limits->layers, slides);
-    if (slides->count > 0) result = upload(found, limits->layers, slides, error);
+    result = upload(found, limits->layers, slides, error);
   }
   free(found);
   if (result != SLAB_OK) gl_slides_free(slides);
@@ -212,5 +228,6 @@ void gl_slides_free(struct gl_slides *slides) {
   free(slides->array);
   free(slides->at);
   free(slides->middle);
+  free(slides->drawn);
   *slides = (struct gl_slides){0};
 }

@@ -4,8 +4,8 @@
  * there are several arrays. Black views are left out. The others are in an order in which
  * every first part of them is spread over the aperture: one can stop anywhere, and go on.
  *
- * Views that share a shadow map, a group, follow each other. There are `groups` x `groups` of
- * them, or one for each view. */
+ * Some views share a shadow map, a group. There are `groups` x `groups` of them, or one for each
+ * view. */
 #ifndef GL_SLIDES_H
 #define GL_SLIDES_H
 
@@ -25,17 +25,19 @@ struct gl_slides {
   double (*at)[4];  /* [count]: a and b; layer within its array; group */
   int arrays;
   struct gl_slides_array *array;
-  int groups;                       /* that have views */
+  int groups;                       /* that have views; in order of their first */
   double (*middle)[2];              /* [groups]: a and b of their middles */
   double group_half[2];             /* sides of a group, halved */
   unsigned views, views_buffer;     /* `at` as a texture */
   unsigned middles, middles_buffer; /* `middle` as a texture */
+  bool *drawn;                      /* [groups]: their maps, where they are kept; false */
 };
 
 /* The page outlives the slides. `gain` multiplies radiance; `origin` is subtracted from
- * positions, so that they keep their digits in single precision. groups: 0: each view. */
+ * positions, so that they keep their digits in single precision. groups: 0: each view.
+ * together: the views of a group follow each other. */
 enum slab_result gl_slides_create(const struct light_page *page, double gain,
-                                  const double origin[3], int groups,
+                                  const double origin[3], int groups, bool together,
                                   const struct gl_limits *limits, struct gl_slides *slides,
                                   struct slab_error *error);
 void gl_slides_free(struct gl_slides *slides); /* zeroed slides allowed */

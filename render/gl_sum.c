@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "gl_program.h"
+#include "vector.h"
 
 enum { GLOSS = 1, SHADOWS = 2 };
 
@@ -31,16 +32,38 @@ static const struct light_page *choose_level(const struct gl_sum_settings *setti
   return levels && level > 0 ? &levels->page[level - 1] : page;
 }
 
+/* Groups of a page along an axis. */
+static int count_groups(const struct gl_sum_settings *settings, const struct light_axis *axis) {
+  bool fewer = settings->groups > 0 && settings->groups < axis->near_count;
+  return fewer ? settings->groups : axis->near_count;
+}
+
+/* Is there room for the maps of all groups? */
+static void make_room(struct gl_sum *sum) {
+  const struct gl_sum_settings *settings = &sum->settings;
+  int64_t all = 0;
+  for (int l = 0, number = 0; l < settings->light_count; ++l)
+    for (int k = 0; k < settings->lights[l].count; ++k, ++number) {
+      const struct light_page *page = choose_level(settings, &settings->lights[l].pages[k], number);
+      all +=
+          (int64_t)count_groups(settings, &page->axes[0]) * count_groups(settings, &page->axes[1]);
+    }
+  sum->maps.room = gl_maps_most(settings->map_size, &sum->limits);
+  sum->kept = all <= sum->maps.room;
+  if (sum->kept) sum->maps.room = (int)all;
+}
+
 static enum slab_result make_slides(struct gl_sum *sum, struct slab_error *error) {
   const struct gl_sum_settings *settings = &sum->settings;
+  bool together = settings->occluders && !sum->kept;
   enum slab_result result = SLAB_OK;
   for (int l = 0; l < settings->light_count && result == SLAB_OK; ++l)
     for (int k = 0; k < settings->lights[l].count && result == SLAB_OK; ++k) {
       const struct light *light = &settings->lights[l];
       const struct light_page *page = choose_level(settings, &light->pages[k], sum->pages);
       struct gl_slides *slides = &sum->slides[sum->pages];
-      result = gl_slides_create(page, light->gain, sum->origin, settings->groups, &sum->limits,
-                                slides, error);
+      result = gl_slides_create(page, light->gain, sum->origin, settings->groups, together,
+                                &sum->limits, slides, error);
       if (result != SLAB_OK) break;
       ++sum->pages;
       sum->unit = fmax(sum->unit, fabs(slides->scale));
@@ -57,12 +80,13 @@ enum slab_result gl_sum_create(const struct gl_sum_settings *settings, struct gl
   enum slab_result result = gl_context_check(&sum->limits, error);
   if (result != SLAB_OK) return result;
   find_origin(settings, sum->origin);
+  if (settings->occluders) make_room(sum);
   sum->slides = calloc((size_t)pages + 1, sizeof *sum->slides);
   if (!sum->slides) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   if (result == SLAB_OK) result = make_slides(sum, error);
   if (result == SLAB_OK && settings->occluders)
-    result = gl_maps_create(settings->occluders, sum->origin, settings->map_size, &sum->limits,
-                            &sum->maps, error);
+    result = gl_maps_create(settings->occluders, sum->origin, settings->map_size, sum->maps.room,
+                            &sum->limits, &sum->maps, error);
   glGenVertexArrays(1, &sum->empty);
   if (result != SLAB_OK) gl_sum_free(sum);
   return result;
@@ -122,10 +146,13 @@ static void set_page(const struct gl_sum *sum, const struct gl_slides *slides, u
   gl_set_texture(program, "views", VIEWS, GL_TEXTURE_BUFFER, slides->views);
 }
 
-/* Views first to end - 1, all of one array and of the maps that are drawn. */
-static void draw(struct gl_sum *sum, unsigned program, int first, int end) {
+/* Views first to end - 1, all of one array and of the maps that are drawn; what lies within
+ * `share` of them. */
+static void draw(struct gl_sum *sum, unsigned program, int first, int end, const double share[2]) {
   int step = sum->settings.separate ? 1 : end - first;
   for (int k = first; k < end; k += step) {
+    double here[2] = {share[0] - k, share[1] - k};
+    gl_set_floats(program, "share", 2, here);
     gl_set_int(program, "first", k);
     gl_set_int(program, "count", step);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -149,40 +176,66 @@ static int find_end(const struct gl_sum *sum, const struct gl_slides *slides, in
   const struct gl_slides_array *array = slides->array;
   while (first >= array->first + array->count) ++array;
   if (end > array->first + array->count) end = array->first + array->count;
-  if (!sum->settings.occluders) return end;
+  if (!sum->settings.occluders || sum->kept) return end;
   int last_map = (int)slides->at[first][3] + sum->maps.room - 1;
   while ((int)slides->at[end - 1][3] > last_map) --end;
   return end;
 }
 
+/* Draws the maps of the views that are not there. Returns the group of layer 0. */
+static int draw_maps(struct gl_sum *sum, const struct gl_slides *slides, int first, int end) {
+  int map = (int)slides->at[first][3], layer = 0;
+  if (!sum->kept) {
+    gl_maps_draw(&sum->maps, slides, map, (int)slides->at[end - 1][3] - map + 1, 0);
+    return map;
+  }
+  for (const struct gl_slides *page = sum->slides; page < slides; ++page) layer += page->groups;
+  for (; first < end; ++first) {
+    map = (int)slides->at[first][3];
+    if (!slides->drawn[map]) gl_maps_draw(&sum->maps, slides, map, 1, layer + map);
+    slides->drawn[map] = true;
+  }
+  return -layer;
+}
+
 static void add_page(struct gl_sum *sum, const struct gl_receivers *receivers, unsigned program,
-                     const struct gl_slides *slides, int first, int end) {
+                     const struct gl_slides *slides, const double share[2]) {
+  int first = (int)floor(share[0]), end = (int)ceil(share[1]);
   for (int next; first < end; first = next) {
     next = find_end(sum, slides, first, end);
-    int map = (int)slides->at[first][3], maps = (int)slides->at[next - 1][3] - map + 1;
-    if (sum->settings.occluders) gl_maps_draw(&sum->maps, slides, map, maps);
+    int map = sum->settings.occluders ? draw_maps(sum, slides, first, next) : 0;
     use_target(sum, receivers, program);
     set_page(sum, slides, program);
     const struct gl_slides_array *array = slides->array;
     while (first >= array->first + array->count) ++array;
     gl_set_texture(program, "slides", SLIDES, GL_TEXTURE_2D_ARRAY, array->texture);
     if (sum->settings.occluders) gl_maps_set(&sum->maps, slides, map, program, MAPS);
-    draw(sum, program, first, next);
+    draw(sum, program, first, next, share);
   }
 }
 
-enum slab_result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *receivers, int part,
-                            int parts, bool gloss, struct slab_error *error) {
+enum slab_result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *receivers, double from,
+                            double to, bool gloss, struct slab_error *error) {
   unsigned program;
   enum slab_result result = choose(sum, gloss, &program, error);
   if (result != SLAB_OK) return result;
   set_receivers(receivers, program);
   for (int page = 0; page < sum->pages; ++page) {
     const struct gl_slides *slides = &sum->slides[page];
-    int64_t count = slides->count;
-    add_page(sum, receivers, program, slides, (int)(count * part / parts),
-             (int)(count * (part + 1) / parts));
+    double share[2] = {from * slides->count, to * slides->count};
+    add_page(sum, receivers, program, slides, share);
   }
   glDisable(GL_BLEND);
   return gl_check("the sum over views", error);
+}
+
+void gl_sum_moved(struct gl_sum *sum, int light) {
+  const struct gl_sum_settings *settings = &sum->settings;
+  int number = 0;
+  for (int l = 0; l < light; ++l) number += settings->lights[l].count;
+  for (int k = 0; k < settings->lights[light].count; ++k) {
+    struct gl_slides *slides = &sum->slides[number + k];
+    vector_subtract(slides->page->center, sum->origin, slides->center);
+    memset(slides->drawn, 0, (size_t)slides->groups * sizeof *slides->drawn);
+  }
 }

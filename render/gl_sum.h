@@ -3,8 +3,8 @@
  *
  * Receivers are textures of floats: from camera rays on the CPU (gl_gather.h), or drawn. What
  * they get is added up in two more, so that views may be added one by one, by parts, or all in
- * one pass; all give the same to float rounding. Light is zero below the receiver's tangent
- * plane; shadows by gl_maps.h. */
+ * one pass; all give the same to float rounding. Shadow maps are kept where all find room. Light is
+ * zero below the receiver's tangent plane; shadows by gl_maps.h. */
 #ifndef GL_SUM_H
 #define GL_SUM_H
 
@@ -47,6 +47,7 @@ struct gl_sum {
   int pages;
   struct gl_slides *slides; /* [pages] */
   struct gl_maps maps;
+  bool kept;              /* all shadow maps have layers of their own */
   unsigned programs[4];   /* by gloss and shadows */
   unsigned empty;         /* vertex array without attributes */
   uint64_t views, passes; /* summed, and drawn for that */
@@ -60,8 +61,13 @@ void gl_sum_free(struct gl_sum *sum); /* zeroed sum allowed */
 /* Sets what the receivers got to nothing. */
 void gl_sum_clear(const struct gl_receivers *receivers);
 
-/* Adds part number `part` of `parts` of all pages' views; highlights too if `gloss`. */
-enum slab_result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *receivers, int part,
-                            int parts, bool gloss, struct slab_error *error);
+/* Adds a share of each page's views, from `from` to `to` of 0..1; highlights too if `gloss`. A
+ * view in which a share ends counts by its part, so that what was added from 0 to x, divided
+ * by x, estimates the whole, of pages with few views too. */
+enum slab_result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *receivers, double from,
+                            double to, bool gloss, struct slab_error *error);
+
+/* To be called after light_move: the light's views are elsewhere. */
+void gl_sum_moved(struct gl_sum *sum, int light);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "slab_resample.h"
 
@@ -42,6 +43,13 @@ enum slab_result levels_build(const struct light_page *page, struct levels *leve
   }
   if (result != SLAB_OK) levels_free(levels);
   return result;
+}
+
+void levels_move(struct levels *levels, const struct light_page *page) {
+  for (int k = 0; k < levels->count; ++k) {
+    memcpy(levels->page[k].center, page->center, sizeof page->center);
+    memcpy(levels->page[k].frame, page->frame, sizeof page->frame);
+  }
 }
 
 void levels_free(struct levels *levels) {

@@ -18,6 +18,10 @@ struct levels {
 /* All levels down to one view. */
 enum slab_result levels_build(const struct light_page *page, struct levels *levels,
                               struct slab_error *error);
+
+/* The page was moved or turned. */
+void levels_move(struct levels *levels, const struct light_page *page);
+
 void levels_free(struct levels *levels); /* NULL allowed; frees what it points to and itself not */
 
 /* The level at which a uv cell, seen from the receiver, covers at most about one st cell: from

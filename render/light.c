@@ -140,17 +140,23 @@ static enum slab_result set_axes(struct light_page *page, double scale, struct s
   return light_page_set_samples(page, error);
 }
 
-static enum slab_result set_page(const char *text, const struct light *light,
-                                 struct light_page *page, struct slab_error *error) {
+/* Where the page is. False where numbers cannot hold that. */
+static bool set_frame(const double matrix[4][3], struct light_page *page) {
   const double *axes[3] = {page->slab.u, page->slab.v, page->slab.normal};
-  turn(light->matrix, page->slab.center, page->center);
+  turn(matrix, page->slab.center, page->center);
   bool finite = true;
   for (int c = 0; c < 3; ++c) {
-    page->center[c] += light->matrix[3][c];
-    turn(light->matrix, axes[c], page->frame[c]);
+    page->center[c] += matrix[3][c];
+    turn(matrix, axes[c], page->frame[c]);
     finite = vector_normalise(page->frame[c]) && finite;
     finite = isfinite(page->center[c]) && finite;
   }
+  return finite;
+}
+
+static enum slab_result set_page(const char *text, const struct light *light,
+                                 struct light_page *page, struct slab_error *error) {
+  bool finite = set_frame(light->matrix, page);
   enum slab_result result = set_axes(page, light->scale, error);
   if (result != SLAB_OK) return result;
   for (int k = 0; k < 2; ++k) {
@@ -194,6 +200,16 @@ void light_free(struct light *light) {
   free(light->pages);
   free(light->path);
   *light = (struct light){0};
+}
+
+bool light_move(struct light *light, const double matrix[4][3]) {
+  bool finite = true;
+  for (int page = 0; page < light->count; ++page)
+    finite = set_frame(matrix, &light->pages[page]) && finite;
+  if (finite) memcpy(light->matrix, matrix, sizeof light->matrix);
+  for (int page = 0; !finite && page < light->count; ++page)
+    set_frame(light->matrix, &light->pages[page]);
+  return finite;
 }
 
 /* Where the ray meets the page's front: the distance and the point (a, b) in scene units. */

@@ -49,6 +49,10 @@ struct light {
 enum slab_result light_load(const char *text, struct light *light, struct slab_error *error);
 void light_free(struct light *light); /* zeroed light allowed */
 
+/* Puts the light elsewhere, turned but as large as it was: `matrix` as light->matrix. False, and
+ * nothing is changed, where numbers cannot hold that. */
+bool light_move(struct light *light, const double matrix[4][3]);
+
 /* Sets what the page knows of its slab's samples, after these have changed. Samples too small
  * for normal floats become 0: they have lost their digits, and processors are slow with them. */
 enum slab_result light_page_set_samples(struct light_page *page, struct slab_error *error);

@@ -12,6 +12,7 @@ uniform float area;                  // of a view's cell, times the page's gain
 uniform sampler2DArray slides;
 uniform samplerBuffer views;         // a, b, layer of the slides, map
 uniform int first, count;
+uniform vec2 share;                  // of the views that counts, from view `first` on
 
 layout(location = 0) out vec4 irradiance;
 #ifdef GLOSS
@@ -68,6 +69,7 @@ void main() {
   vec3 matte = vec3(0);
   for (int k = first; k < first + count; ++k) {
     vec4 view = texelFetch(views, k);
+    float part = min(k - first + 1, share.y) - max(k - first, share.x);
     vec2 slope = (view.xy - p.xy)/p.z;
     float height = dot(n.xy, slope) - n.z, square = 1 + dot(slope, slope);
     if (height <= 0) continue;
@@ -75,6 +77,7 @@ void main() {
 #ifdef SHADOWS
     if (light == vec3(0) || shadowed(p, plane, int(view.w))) continue;
 #endif
+    light *= part;
     matte += light*(height/(square*square));
 #ifdef GLOSS
     float r = sqrt(square);
