@@ -1,6 +1,7 @@
 /* test_gl.c - the method gl against a plain sum over views, in double precision, with shadow
  * rays that are met by arithmetic on rectangles. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -188,6 +189,176 @@ static void energy_is_independent_of_resolution(void **state) {
   slab_free(&slab);
 }
 
+/* A mesh that is written corner by corner; OBJ files have z mirrored. */
+struct mesh {
+  FILE *file;
+  const char *path;
+  int corners;
+};
+
+static struct mesh mesh_start(const char *name) {
+  struct mesh mesh = {.path = scratch(name)};
+  mesh.file = fopen(mesh.path, "w");
+  assert_non_null(mesh.file);
+  return mesh;
+}
+
+static void mesh_add(struct mesh *mesh, const double (*corners)[3], int count) {
+  for (int k = 0; k < count; ++k)
+    fprintf(mesh->file, "v %.17g %.17g %.17g\n", corners[k][0], corners[k][1], -corners[k][2]);
+  fputs("f", mesh->file);
+  for (int k = 0; k < count; ++k) fprintf(mesh->file, " %d", ++mesh->corners);
+  fputs("\n", mesh->file);
+}
+
+static void mesh_add_screen(struct mesh *mesh, const struct screen *screen) {
+  double corners[4][3];
+  for (int c = 0; c < 3; ++c) {
+    corners[0][c] = screen->corner[c];
+    corners[1][c] = corners[0][c] + screen->along[0][c];
+    corners[2][c] = corners[1][c] + screen->along[1][c];
+    corners[3][c] = corners[0][c] + screen->along[1][c];
+  }
+  mesh_add(mesh, (const double(*)[3])corners, 4);
+}
+
+/* A lamp at the origin, 1 x 1, that shines along z (FRAME_PLAIN). */
+static struct slab lamp(const char **file) {
+  static const int samples[SLAB_AXES] = {6, 6, 8, 8};
+  struct slab slab = rough_slab(samples, INFINITY, window, FRAME_PLAIN, FILL_UNIFORM, 17);
+  need_program();
+  *file = write_light("lamp.tif", &slab, 1);
+  return slab;
+}
+
+/* SIDE x SIDE receivers on a square at height z, as wide, that face the lamp. */
+static void spread(int side, double z, double half) {
+  for (int k = 0; k < side * side; ++k) {
+    int row = k / side;
+    receivers[k] = (struct receiver){
+        .p = {((k % side + 0.37) / side * 2 - 1) * half, ((row + 0.41) / side * 2 - 1) * half, z},
+        .n = {0, 0, -1}};
+  }
+}
+
+/* The shadow of a rectangle that stands askew, from each view a sharp one. */
+static void shadows_are_where_rays_are_stopped(void **state) {
+  (void)state;
+  static const struct screen screen = {{-0.3, -0.2, 1.1}, {{0.7, 0.1, 0.3}, {-0.1, 0.7, 0}}};
+  const char *file;
+  struct slab slab = lamp(&file);
+  struct mesh mesh = mesh_start("screen.obj");
+  mesh_add_screen(&mesh, &screen);
+  fclose(mesh.file);
+  spread(60, 3, 3);
+  expect_sums(&slab, 1, &screen, 3600);
+  irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s", file, mesh.path);
+  double fine = rms(got, right, 3600);
+  irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s --shadow-map 128", file,
+             mesh.path);
+  double coarse = rms(got, right, 3600);
+  print_message("# shadows: %.2g with 2048 texels, %.2g with 128\n", fine, coarse);
+  assert_true(fine < 0.03 && coarse < 0.15);
+  irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s --gl-passes views", file,
+             mesh.path);
+  assert_near(rms(got, right, 3600), fine, 1e-6);
+  slab_free(&slab);
+}
+
+/* A map for 2 x 2 views takes all of their light or none: in the rim of a shadow at most half
+ * of a group's share is wrong, and beside it nothing. */
+static void groups_err_in_the_rim_alone(void **state) {
+  (void)state;
+  static const struct screen screen = {{-9, 0, 1.5}, {{18, 0, 0}, {0, 9, 0}}}; /* half a plane */
+  const char *file;
+  struct slab slab = lamp(&file);
+  fill_slab(&slab, FILL_CONSTANT, 1);
+  file = write_light("even.tif", &slab, 1);
+  struct mesh mesh = mesh_start("half.obj");
+  mesh_add_screen(&mesh, &screen);
+  fclose(mesh.file);
+  spread(60, 3, 0.7); /* all views reach them, about equally */
+  static double grouped[COUNT_MAX][3];
+  expect_sums(&slab, 1, NULL, 3600);
+  irradiance(receivers, 3600, grouped, "--light %s --method gl --mesh %s --shadow-groups 3", file,
+             mesh.path);
+  irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s", file, mesh.path);
+  double worst = 0;
+  for (int k = 0; k < 3600; ++k) {
+    double off = fabs(got[k][0] - grouped[k][0]) / right[k][0];
+    /* The lamp's edges, through the screen's, meet the receivers at y = -0.5 and 0.5. */
+    if (fabs(receivers[k].p[1]) > 0.51) assert_near(off, 0, 1e-6);
+    worst = fmax(worst, off);
+  }
+  print_message("# a group of 2 x 2 views: up to %.2g of the light\n", worst);
+  assert_true(worst > 0.1 && worst <= 1.1 / 6);
+  slab_free(&slab);
+}
+
+/* Nothing that is convex, as seen from the lamp, casts a shadow on itself: a slope down to
+ * grazing light, and a bowl of flat facets. */
+static void no_acne(void **state) {
+  (void)state;
+  enum { N = 24 };
+  const char *file;
+  struct slab slab = lamp(&file);
+  uint32_t seed = 23;
+  for (int kind = 0; kind < 4; ++kind) {
+    struct mesh mesh = mesh_start("acne.obj");
+    int count = 0;
+    double tilt = (const double[]){0, 1, 1.5, 1.565}[kind];
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) {
+        double corner[3][3], across[2][3];
+        for (int k = 0; k < 3; ++k) {
+          double x = (double)(i + (k == 1)) / N * 2 - 1, y = (double)(j + (k == 2)) / N * 2 - 1;
+          const double slope[3] = {x * cos(tilt), y, 2 + x * sin(tilt)};
+          const double bowl[3] = {x, y, 2.5 - (x * x + y * y) / 2};
+          memcpy(corner[k], kind == 0 ? bowl : slope, sizeof corner[k]);
+        }
+        mesh_add(&mesh, (const double(*)[3])corner, 3);
+        for (int k = 0; k < 2; ++k) vector_subtract(corner[k + 1], corner[0], across[k]);
+        struct receiver *receiver = &receivers[count++];
+        double a = random_number(&seed), b = random_number(&seed) * (1 - a);
+        for (int c = 0; c < 3; ++c)
+          receiver->p[c] = corner[0][c] + a * across[0][c] + b * across[1][c];
+        vector_cross(across[1], across[0], receiver->n);
+        vector_normalise(receiver->n);
+      }
+    fclose(mesh.file);
+    expect_sums(&slab, 1, NULL, count);
+    irradiance(receivers, count, got, "--light %s --method gl --mesh %s", file, mesh.path);
+    print_message("# acne, tilt %g: %.2g\n", tilt, rms(got, right, count));
+    assert_near(rms(got, right, count), 0, 2e-5);
+  }
+  slab_free(&slab);
+}
+
+/* Behind a wall it is dark, two texels of the map behind it too, and in the foot of a wall. */
+static void no_leaks(void **state) {
+  (void)state;
+  static const struct screen plate = {{-9, -9, 3}, {{18, 0, 0}, {0, 18, 0}}};
+  static const struct screen wall = {{0.3, -9, 1}, {{0, 18, 0}, {0, 0, 2.0000001}}};
+  const char *file;
+  struct slab slab = lamp(&file);
+  struct mesh mesh = mesh_start("leak.obj");
+  mesh_add_screen(&mesh, &plate);
+  mesh_add_screen(&mesh, &wall);
+  fclose(mesh.file);
+  spread(60, 3 + 3 * 2 * 2.5 / 2048, 3); /* under the plate */
+  irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s", file, mesh.path);
+  for (int k = 0; k < 3600; ++k) assert_true(got[k][0] == 0 && got[k][1] == 0 && got[k][2] == 0);
+  spread(60, 3, 3); /* on it, on both sides of the wall */
+  for (int k = 0; k < 30; ++k) receivers[k].p[0] = 0.3 + 3 * 2.5 / 2048 * (k + 2);
+  memset(right, 0, sizeof right);
+  expect_sums(&slab, 1, &wall, 3600);
+  irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s", file, mesh.path);
+  print_message("# a wall on the floor: %.2g; in its foot %.2g\n", rms(got, right, 3600),
+                rms(got, right, 30));
+  assert_true(rms(got, right, 3600) < 0.03 && rms(got, right, 30) < 0.05);
+  slab_free(&slab);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sums_over_views),
@@ -195,6 +366,10 @@ int main(void) {
       cmocka_unit_test(more_views_than_layers),
       cmocka_unit_test(levels_keep_the_light),
       cmocka_unit_test(energy_is_independent_of_resolution),
+      cmocka_unit_test(shadows_are_where_rays_are_stopped),
+      cmocka_unit_test(groups_err_in_the_rim_alone),
+      cmocka_unit_test(no_acne),
+      cmocka_unit_test(no_leaks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
