@@ -82,6 +82,8 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     arguments->no_shadows = true;
     return 0;
   case ARGP_KEY_SUCCESS:
+    if (arguments->time_limit > 0 && arguments->options.method == GATHER_GL)
+      argp_error(state, "--time-limit: not with --method gl, which has one pass; use --level");
     check_output(arguments->output, state);
     return 0;
   default:

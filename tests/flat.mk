@@ -37,6 +37,12 @@ $(BENCH_SUM): $(B)/tests/bench/sum.o $(B)/tests/bench/roofline.o $(B)/librender.
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(RENDER_LIBS) $(ALL_LDLIBS) -o $@
 
+BENCH_FRAMES := $(B)/tests/bench/frames
+
+$(BENCH_FRAMES): $(B)/tests/bench/frames.o $(B)/librender.a $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(RENDER_LIBS) $(ALL_LDLIBS) -o $@
+
 TRADEOFF_LAMPS := $(B)/tests/tradeoff/lamps
 
 $(TRADEOFF_LAMPS): $(B)/tests/tradeoff/lamps.o $(B)/libslab.a
@@ -49,7 +55,7 @@ tradeoff: $(BIN) $(BENCH_FLOOR) $(TRADEOFF_LAMPS) $(DEMO)/parabolic.tif ## measu
 	@ln -sfn $(abspath $(DEMO)/parabolic.tif) build/tradeoff/parabolic.tif
 	@$(TEST_ENV) BUILD=$(abspath build/tradeoff) LAMPS=$(abspath $(TRADEOFF_LAMPS)) FLOOR=$(abspath $(BENCH_FLOOR)) tests/tradeoff/run.sh
 
-bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
+bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done

@@ -87,7 +87,7 @@ starved() { (ulimit -v 1200000 && picture "$@"); }
 }
 
 @test "options of gl are checked" {
-  for bad in '--shadow-map 0' '--shadow-map 99999' '--shadow-groups 0' '--gl-passes two' '--method gles'; do
+  for bad in '--shadow-map 0' '--shadow-map 99999' '--shadow-groups 0' '--gl-passes two' '--method gl --time-limit 1' '--method gles'; do
     # shellcheck disable=SC2086
     run picture out.exr floor.obj $bad
     [ "$status" -eq 2 ] || { echo "$bad: $status"; return 1; }
