@@ -1,13 +1,17 @@
-/* cmd_check.c - bakeslab check: reads all of a slab, and looks whether its
- * light goes on beyond what was sampled (slab_profile.h). --error tells the slab's own error
- * (slab_floor.h). */
+/* cmd_check.c - bakeslab check: reads all of a slab, looks whether its light goes on beyond
+ * what was sampled (slab_profile.h), and whether all of it arrives, once (energy.h). --error
+ * tells the slab's own error (slab_floor.h). */
 #include <math.h>
 #include <stdio.h>
 
 #include "cli.h"
+#include "energy.h"
 #include "slab_file.h"
 #include "slab_floor.h"
 #include "slab_profile.h"
+
+/* The share of the flux that may be missing, or be there twice, before a warning. */
+static const double most_lost = 0.01;
 
 struct options {
   bool strict, error;
@@ -58,6 +62,43 @@ static enum slab_result judge_page(const char *path, int page, const struct slab
   return result;
 }
 
+static enum slab_result weigh_page(const char *path, int page, const struct slab *slab,
+                                   int *warnings, struct slab_error *error) {
+  struct energy energy;
+  enum slab_result result = energy_measure(slab, &energy, error);
+  if (result != SLAB_OK) return result;
+  bool lost = fabs(energy.off) > most_lost + energy.known_to;
+  *warnings += lost;
+  double metres2 = slab->metres_per_unit * slab->metres_per_unit;
+  printf("%s: page %d: %sflux %.4g %.4g %.4g %s at the aperture, ", path, page + 1,
+         lost ? "warning: " : "", energy.aperture[0] * metres2, energy.aperture[1] * metres2,
+         energy.aperture[2] * metres2, slab_flux_unit(slab));
+  if (isinf(energy.known_to))
+    printf("in too thin a peak to be compared with what arrives on a closed box around\n");
+  else
+    printf("%+.2g %% on a closed box around (known to %.2g %%)\n", 100 * energy.off,
+           100 * energy.known_to);
+  return SLAB_OK;
+}
+
+/* Does light of a page leave through another page's aperture too? */
+static enum slab_result weigh_twice(const char *path, const struct slab_file *file, int page,
+                                    const struct slab *slab, int *warnings,
+                                    struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  for (int other = 0; other < slab_file_pages(file) && !result; ++other) {
+    double share = 0;
+    if (other == page) continue;
+    result = energy_twice(slab, slab_file_page(file, other), &share, error);
+    if (share <= most_lost) continue;
+    ++*warnings;
+    printf("%s: page %d: warning: %.3g %% of its flux leaves through the aperture of page %d "
+           "too, and is there twice\n",
+           path, page + 1, 100 * share, other + 1);
+  }
+  return result;
+}
+
 /* " NAME 1.2 %", or that it is unknown. */
 static void print_part(const char *before, const char *name, double part) {
   if (isnan(part))
@@ -102,6 +143,8 @@ static enum slab_result check_file(const char *path, bool errors, int *warnings,
     if (result == SLAB_OK)
       printf("%s: page %d: valid, %d x %d x %d x %d samples\n", path, page + 1, slab.samples[0],
              slab.samples[1], slab.samples[2], slab.samples[3]);
+    if (result == SLAB_OK) result = weigh_page(path, page, &slab, warnings, error);
+    if (result == SLAB_OK) result = weigh_twice(path, file, page, &slab, warnings, error);
     if (result == SLAB_OK && errors) result = print_floor(path, page, &slab, error);
     slab_free(&slab);
   }
@@ -125,7 +168,11 @@ int cmd_check(int argc, char **argv) {
           "standard output, where light is cut off: where the mean radiance of the last samples "
           "of s or t is more than 2 % of that axis's brightest (enlarge the st window), and of "
           "u or v more than 50 % (the lamp's opening fills the rectangle and may go on beyond "
-          "it). A warning is not an error.\n\n"
+          "it). Compares the flux at the aperture with what arrives on a closed box around it, "
+          "an aperture's width (the longer edge) away, as a sum over some 10^6 rays, and tells "
+          "how far that sum is to be trusted; warns where they differ by 1 % more than that, "
+          "and where more than 1 % of the flux of a page leaves through another page's aperture "
+          "too, so that the lamp gives it twice. A warning is not an error.\n\n"
           "With --error, it tells how far the irradiance of a surface that faces the slab is "
           "off the lamp's, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
           "in brackets): the RMS of the error over the RMS of the irradiance. It is told from "

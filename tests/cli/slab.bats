@@ -158,6 +158,19 @@ $line"
   [[ $output != *warning* ]]
 }
 
+@test "check: flux at the aperture and on a box around; light that is there twice" {
+  command -v tiffcp >/dev/null || skip "no tiffcp"
+  raw_slab even.tif '[1, 1, 2, 2]' 2 2 ', "metres_per_unit": 2' "$one" "$one" "$one"
+  run --separate-stderr "$BAKESLAB" check even.tif
+  [ "$status" -eq 0 ]
+  [[ $output =~ "flux 0.2785 0.2785 0.2785 relative m2 sr at the aperture, "[+-][0-9.e-]+" % on a closed box around (known to 0.0" ]]
+  [[ $output != *twice* ]]
+  tiffcp even.tif even.tif two.tif
+  run --separate-stderr "$BAKESLAB" check two.tif
+  [ "$status" -eq 0 ]
+  [[ $output == *"two.tif: page 1: warning: 100 % of its flux leaves through the aperture of page 2 too, and is there twice"* ]]
+}
+
 @test "bad files: one line with file, page and reason, by every command" {
   raw_slab nan.tif '[2, 1, 2, 2]' 4 2 '' "$one" "$one" "$one" "$one" 7fc00000 "$one"
   raw_slab wrong.tif '[2, 1, 2, 3]' 4 2 '' "$one"
