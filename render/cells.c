@@ -30,7 +30,9 @@ static enum slab_result reserve_columns(struct cells *cells, struct slab_error *
 }
 
 static double reach(const struct strips *strips) {
-  return strips->strip[strips->count - 1].high - strips->strip[0].low;
+  double sum = 0;
+  for (int k = 0; k < strips->count; ++k) sum += strips->strip[k].width;
+  return sum;
 }
 
 static void set_columns(struct cells *cells) {

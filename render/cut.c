@@ -27,6 +27,9 @@ static const double worth = 0.7, hopeless = 12;
  * if it were that share; and what is aimed at, since all is estimated. */
 static const double least_share = 1e-4, margin = 0.7, clipped_margin = 0.4;
 
+/* Nodes are summed in single precision. */
+static const double rounding = 5e-7;
+
 struct cut_work {
   struct cut_view view;
   struct cut_views *views[CUT_TOGETHER]; /* owned */
@@ -75,7 +78,7 @@ static double find_budget(struct cut_work *work) {
     strips[axis] = 1 + cells * share + share * along->near_count;
     widest = fmax(widest, fmin(near, far));
   }
-  const double error = rule_pi_error(widest, 0);
+  const double error = rule_pi_error(widest, 0, 0);
   const double cost = light_cost * strips[0] * strips[1] + strip_cost * (strips[0] + strips[1]);
   return error <= work->tolerance ? cost : gauss * cost;
 }
@@ -235,9 +238,10 @@ static bool is_clipped(const struct cut_view *sees) {
 static bool sum_cut(struct cut_work *work, double floor, double irradiance[3], double *predicted) {
   const struct cut_tree *tree = work->view.tree;
   const double per_height = work->view.per_height;
-  const double least = fmax(floor, least_share * tree->brightest * per_height * per_height);
-  double aim = margin * work->tolerance, more = 0, error = 0, most = 0;
-  if (!start(work, aim)) return false;
+  const double sent = fmin(tree->brightest * per_height * per_height, tree->hemisphere);
+  const double least = fmax(floor, least_share * sent);
+  double aim = margin * work->tolerance - rounding, more = 0, error = 0, most = 0;
+  if (!(aim > 0) || !start(work, aim)) return false;
   if (is_clipped(&work->view)) aim *= clipped_margin;
   for (int round = 0; round < ROUNDS; ++round) {
     double rgb[3] = {0}, bent = 0;
@@ -246,8 +250,8 @@ static bool sum_cut(struct cut_work *work, double floor, double irradiance[3], d
       if (!cut_view_light(&work->view, &work->heap[k], rgb, &bent)) return false;
     most = fmax(fmax(fmax(rgb[0], rgb[1]), rgb[2]), least);
     error = error_sum(work) + bent;
-    memcpy(irradiance, rgb, sizeof rgb);
-    *predicted = most > 0 ? error / most : 0;
+    for (int c = 0; c < 3; ++c) irradiance[c] = fmax(rgb[c], tree->least);
+    *predicted = rounding + (most > 0 ? error / most : 0);
     if (error <= aim * most) return true;
     if (bent > aim * most) return false;
     more = most - bent / aim - work->light;
@@ -261,8 +265,9 @@ void cut_finish(struct cut_work *work) {
   work->waiting = 0;
 }
 
-bool cut_sum(const struct cut_tree *tree, const struct view *view, double tolerance, double floor,
+bool cut_sum(const struct cut_tree *tree, const struct view *from, double tolerance, double floor,
              struct cut_work *work, double irradiance[3], struct cut_counts *counts) {
+  const struct view scaled = cut_tree_view(tree, from), *view = &scaled;
   if (view->kernel.shininess > 0 || !(view->height > 0) || !above(view)) return false;
   if (!cut_view_begin(tree, view, &work->view)) return false;
   work->count = 0;

@@ -19,8 +19,10 @@
  * of them keep the tolerance, so nothing is seen where one hands over to another.
  *
  * The error of a page's light: the largest of the channels' absolute errors, relative to the
- * largest channel, or to 1e-4 of the most that the page can send to the receiver's height,
- * (largest radiance summed over the aperture)/z^2, if that is more, or to `floor`. */
+ * largest channel, or to 1e-4 of the most that the page can send to the receiver's height, if that
+ * is more, or to `floor`. That most is (largest radiance summed over the aperture)/z^2, or pi times
+ * its mean over the aperture, if that is less. Tolerances below 1e-6 are beyond single precision:
+ * the micro lights do it. Slabs that are nowhere negative give no negative light. */
 #ifndef CUT_H
 #define CUT_H
 
@@ -29,7 +31,7 @@
 
 #include "view.h"
 
-struct cut_tree; /* keeps a pointer to the page */
+struct cut_tree; /* keeps a pointer to the page's samples */
 
 /* Builds the tree of a page: the same bits whatever the threads. Nearly all of the time goes into
  * measuring errors: 0.6 s of CPU for 16 x 16 x 64 x 64 samples, 2.5 s for 32 x 32 x 64 x 64, what

@@ -131,21 +131,23 @@ static float largest_of(const float *rgb) {
 }
 
 static void set_scale(struct cut_tree *tree) {
-  float most = 0;
+  float most = 0, least = 0;
   size_t floats = 3 * slab_sample_count(&tree->page->slab);
-  for (size_t k = 0; k < floats; ++k) most = fmaxf(most, fabsf(tree->page->slab.rgb[k]));
+  for (size_t k = 0; k < floats; ++k) {
+    most = fmaxf(most, fabsf(tree->page->slab.rgb[k]));
+    least = fminf(least, tree->page->slab.rgb[k]);
+  }
+  tree->least = least < 0 ? -INFINITY : 0;
   for (int code = 1; code < CUT_CODES; ++code) {
     uint32_t bits = (127u << 23) - ((uint32_t)(CUT_CODES - 1 - code) << CUT_CODE_SHIFT);
     float share;
     memcpy(&share, &bits, sizeof share);
     tree->error[code] = most * share;
   }
-  tree->brightest = most * tree->axes[0].level[0]->moment[0] * tree->axes[1].level[0]->moment[0];
-  if (tree->levels < 2) return;
-  const float *image = tree->level[0].images;
-  tree->brightest = 0;
-  for (size_t k = 0; k < cut_texels(tree); ++k)
-    tree->brightest = fmax(tree->brightest, largest_of(image + k * CUT_FLOATS));
+  tree->brightest = tree->levels < 2 ? most : 0;
+  for (size_t k = 0; tree->levels > 1 && k < cut_texels(tree); ++k)
+    tree->brightest = fmax(tree->brightest, largest_of(tree->level[0].images + k * CUT_FLOATS));
+  tree->hemisphere = M_PI * tree->brightest;
   tree->brightest *= tree->axes[0].level[0]->moment[0] * tree->axes[1].level[0]->moment[0];
 }
 
@@ -217,11 +219,24 @@ static enum slab_result build_tree(struct cut_tree *tree, int threads, struct sl
   return result;
 }
 
+static void set_page(struct cut_tree *tree, const struct light_page *page) {
+  const int exponent = ilogb(2 * fmax(page->axes[0].half, page->axes[1].half));
+  tree->own = *page;
+  tree->page = &tree->own;
+  tree->per_unit = ldexp(1, -exponent);
+  for (int k = 0; k < 2; ++k) {
+    struct light_axis *axis = &tree->own.axes[k];
+    axis->half = ldexp(axis->half, -exponent);
+    axis->near_step = ldexp(axis->near_step, -exponent);
+    axis->kappa = ldexp(axis->kappa, exponent);
+  }
+}
+
 enum slab_result cut_build(const struct light_page *page, int threads, struct cut_tree **made,
                            struct slab_error *error) {
   struct cut_tree *tree = calloc(1, sizeof *tree);
   if (!tree) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  tree->page = page;
+  set_page(tree, page);
   enum slab_result result = build_tree(tree, threads, error);
   if (result != SLAB_OK) {
     cut_free(tree);

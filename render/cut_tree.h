@@ -20,6 +20,7 @@
 
 #include "cut_axis.h"
 #include "simd.h"
+#include "view.h"
 
 enum { CUT_FLOATS = 12, CUT_SPREADS = 4, CUT_PADDING = 8, CUT_CODES = 256 };
 
@@ -51,14 +52,29 @@ struct cut_level {
 };
 
 struct cut_tree {
-  const struct light_page *page;
-  int levels; /* the last is that of the single views: no images */
+  const struct light_page *page; /* `own` */
+  struct light_page own;         /* the page, but for its unit of length: see cut_tree_view; its
+                                    slab is whoever owns it's */
+  double per_unit;               /* a power of two: units in a length of the scene */
+  int levels;                    /* the last is that of the single views: no images */
   struct cut_axis axes[2];
   struct cut_level level[CUT_LEVELS];
   float error[CUT_CODES]; /* what a code means: mean radiance */
-  double brightest;       /* largest M of the root, times the aperture's area */
+  double brightest;       /* largest M of the root, times the aperture's area; */
+  double hemisphere;      /* times pi */
+  double least;           /* of light: 0, or -INFINITY where samples are negative */
   double bytes;           /* of memory, the slab aside */
 };
+
+/* The tree's lengths are in units of about its aperture, so that none of their powers leaves the
+ * range of numbers: the view in these units. */
+static inline struct view cut_tree_view(const struct cut_tree *tree, const struct view *view) {
+  struct view scaled = *view;
+  scaled.page = tree->page;
+  scaled.height *= tree->per_unit;
+  for (int axis = 0; axis < 2; ++axis) scaled.foot[axis] *= tree->per_unit;
+  return scaled;
+}
 
 /* Codes step by 1/8 of a power of 2: as floats do without their last bits. */
 enum { CUT_CODE_SHIFT = 20 };

@@ -18,6 +18,10 @@ static const double third_order = 0.5, cut_third_order = 8, fourth_order = 0.3;
 static const double mixed_order = 0.16, cut_mixed_order = 0.6, part_order = 1;
 static const double second_order = 2, first_order = 2;
 
+/* From so much of a node's reach over its distance on, squared, the kernel in its center says
+ * nothing of its light: it may bring all that there is. */
+static const double steep = 0.25;
+
 void cut_view_free(struct cut_view *view) {
   free(view->spots);
   free(view->taps);
@@ -60,14 +64,13 @@ static void set_spots(const struct cut_view *view, int level, int axis, struct c
   const struct light_axis *along = &view->view->page->axes[axis];
   const struct cut_axis *tree = &view->tree->axes[axis];
   const double q = view->view->foot[axis], most = along->far_count - 0.5;
-  const double shift = along->kappa * q - along->far_low,
-               rate = along->kappa * view->view->height - 1;
+  const double kappa = along->kappa, shift = -along->far_low;
   const double per_step = 1 / along->far_step, speed = fabs(view->rate[axis]);
   const double per_speed = 1 / speed;
   const struct cut_interval *interval = tree->level[level];
   for (int k = 0; k < tree->count[level]; ++k, ++spot, ++interval) {
     spot->slope = (interval->center - q) * view->per_height;
-    spot->place = (shift + rate * spot->slope) * per_step - 0.5;
+    spot->place = (shift + (kappa * interval->center - spot->slope)) * per_step - 0.5;
     spot->size = interval->moment[0] * view->per_height;
     double reach = speed * interval->half, low = spot->place - reach, high = spot->place + reach;
     spot->seen = high > -0.5 && low < most;
@@ -178,6 +181,7 @@ bool cut_view_estimate(const struct cut_view *view, int number, const int at[2],
     node->spread = value * larger(spread, edge);
   }
   node->bent = fabs(node->light) * node->bend + value * part;
+  if (flat > steep) node->bent += tree->hemisphere;
   return true;
 }
 

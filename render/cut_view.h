@@ -1,5 +1,6 @@
 /* cut_view.h - a tree's nodes as one receiver sees them: what is estimated of a node, at the
- * cost of a look at one st sample, and its light. */
+ * cost of a look at one st sample, and its light. All lengths are in the tree's units
+ * (cut_tree_view). */
 #ifndef CUT_VIEW_H
 #define CUT_VIEW_H
 

@@ -50,7 +50,7 @@ static const double nodes_at[CUT_VIEWS_NODES + 1][CUT_VIEWS_NODES] = {
 /* One axis, as the receiver sees it. */
 struct sees {
   const struct light_axis *axis;
-  double foot, per_height, shift, rate, per_step, speed, per_speed;
+  double foot, per_height, per_step, speed, per_speed;
   int nodes;
   double first[2], second; /* one node: the kernel's slope; at x it is first[0] + first[1] x */
   double share[CUT_VIEWS_NODES][CUT_MOMENTS]; /* more: each node's polynomial */
@@ -100,11 +100,9 @@ static struct sees look_along(const struct view *view, int axis, int nodes,
   struct sees sees = {.axis = along,
                       .foot = view->foot[axis],
                       .per_height = 1 / view->height,
-                      .shift = along->kappa * view->foot[axis] - along->far_low,
-                      .rate = along->kappa * view->height - 1,
                       .per_step = 1 / along->far_step,
                       .nodes = nodes};
-  sees.speed = sees.rate * sees.per_step * sees.per_height;
+  sees.speed = (along->kappa * view->height - 1) * sees.per_step * sees.per_height;
   sees.per_speed = 1 / fabs(sees.speed);
   if (nodes == 1)
     find_slope(view, axis, middle, &sees);
@@ -152,7 +150,7 @@ static bool weigh(const struct sees *sees, const struct cut_interval *view, floa
   const int last = axis->far_count - 1;
   const double x = (view->center - sees->foot) * sees->per_height;
   const double width = view->half * sees->per_height;
-  const double place = (sees->shift + sees->rate * x) * sees->per_step - 0.5;
+  const double place = (axis->kappa * view->center - x - axis->far_low) * sees->per_step - 0.5;
   const double reach = fabs(sees->speed) * view->half;
   const double bend[CUT_MOMENTS] = {1, (sees->first[0] + sees->first[1] * x) * width,
                                     sees->second * width * width};
@@ -334,13 +332,31 @@ void cut_views_light(const struct cut_views *views, double rgb[3]) {
 
 /* What the kernel's slope leaves out, in units of its change over a view and over the aperture. */
 static const double view_order = 0.5, aperture_order = 0.15;
+/* From a view's size over its distance on, squared, at which the slope in the middle of the
+ * aperture says nothing of it. */
+static const double steep = 0.25;
 static const double rounding = 3e-6, nodes_rounding = 3e-5;
+
+/* Slopes between which the aperture is; returns the square of the distance to its nearest point, in
+ * units of the height. */
+static double find_ends(const struct view *view, double low[2], double high[2]) {
+  double square = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double half = view->page->axes[axis].half, foot = view->foot[axis];
+    low[axis] = (-half - foot) / view->height;
+    high[axis] = (half - foot) / view->height;
+    const double nearest = low[axis] > 0 ? low[axis] : high[axis] < 0 ? high[axis] : 0;
+    square += nearest * nearest;
+  }
+  return square;
+}
 
 /* With one node and the kernel's slope. */
 static double slope_error(const struct view *view) {
   const struct light_axis *axes = view->page->axes;
   const double *n = view->kernel.normal;
-  double middle[2], error = rounding;
+  double middle[2], low[2], high[2], error = rounding;
+  const double nearest = find_ends(view, low, high);
   find_middle(view, middle);
   const double square = 1 + middle[0] * middle[0] + middle[1] * middle[1];
   const double tilt =
@@ -350,6 +366,7 @@ static double slope_error(const struct view *view) {
     const double step = axes[axis].near_step / view->height, half = axes[axis].half / view->height;
     const double wide = fabs(axes[axis].kappa * view->height - 1) * step / axes[axis].far_step;
     error += bend * bend * step * (view_order * step + aperture_order * half * fmin(wide, 1));
+    if (step * step > steep * nearest) error = INFINITY;
   }
   return error;
 }
@@ -359,13 +376,8 @@ static double slope_error(const struct view *view) {
 static double nodes_error(const struct view *view, int nodes) {
   static const double order[CUT_VIEWS_NODES + 1] = {0, 0, 1, 0.8, 0.6};
   const struct light_axis *axes = view->page->axes;
-  double low[2], high[2], range[2], square = 1, error = nodes_rounding;
-  for (int axis = 0; axis < 2; ++axis) {
-    low[axis] = (-axes[axis].half - view->foot[axis]) / view->height;
-    high[axis] = (axes[axis].half - view->foot[axis]) / view->height;
-    const double nearest = low[axis] > 0 ? low[axis] : high[axis] < 0 ? high[axis] : 0;
-    square += nearest * nearest;
-  }
+  double low[2], high[2], range[2], error = nodes_rounding;
+  const double square = find_ends(view, low, high);
   kernel_heights(&view->kernel, low, high, range);
   if (!(range[0] > 0)) return INFINITY;
   for (int axis = 0; axis < 2; ++axis) {

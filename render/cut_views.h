@@ -3,7 +3,7 @@
  * it is seen over, the weights a product of one for s and one for t, integrated exactly. The kernel
  * is taken in the view's middle, with its slope; or, near the aperture, as the polynomial through
  * up to 4 nodes a side. That is more exact than the micro lights of the method pi, and there are
- * fewer views than micro lights. */
+ * fewer views than micro lights. All lengths are in the tree's units (cut_tree_view). */
 #ifndef CUT_VIEWS_H
 #define CUT_VIEWS_H
 

@@ -144,26 +144,39 @@ static enum slab_result take_sums(struct gather *gather, double gain, struct gat
   return SLAB_OK;
 }
 
-static double pi_error(const struct strips strips[2], double shininess) {
-  double widest = 0;
-  for (int axis = 0; axis < 2; ++axis)
-    for (int k = 0; k < strips[axis].count; ++k)
-      widest = fmax(widest, strips[axis].strip[k].high - strips[axis].strip[k].low);
-  return rule_pi_error(widest, shininess);
+static void heights(const struct view *view, const struct strips strips[2], double range[2]) {
+  double low[2], high[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    low[axis] = strips[axis].strip[0].low;
+    high[axis] = strips[axis].strip[strips[axis].count - 1].high;
+  }
+  kernel_heights(&view->kernel, low, high, range);
+}
+
+static double pi_error(const struct view *view, const struct strips strips[2]) {
+  double widest = 0, change = 0, range[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    double wide = 0;
+    for (int k = 0; k < strips[axis].count; ++k) wide = fmax(wide, strips[axis].strip[k].width);
+    widest = fmax(widest, wide);
+    change += fabs(view->kernel.normal[axis]) * wide;
+  }
+  heights(view, strips, range);
+  const double rise = change > 0 ? change / (fmax(range[0], 0) + change / 2) : 0;
+  return rule_pi_error(widest, rise, view->kernel.shininess);
 }
 
 /* The method for this receiver and page, and its predicted relative error: INFINITY where none
  * is known, as with random samples, whole levels and sums over views. */
 static enum gather_method choose(const struct gather *gather, const struct look *look,
                                  const struct view *view, double *error) {
-  const struct strips *strips = gather->whole;
   enum gather_method method = gather->settings->method;
   bool sampled = method == GATHER_PAPER || method == GATHER_PAPER_LEVELS ||
                  method == GATHER_VIEWS || method == GATHER_MIDPOINT;
   *error = gather->settings->tolerance;
   bool cheapest = method == GATHER_AUTO || method == GATHER_LEVELS || method == GATHER_CUT;
   if (cheapest || method == GATHER_PI) {
-    double single = pi_error(strips, look->receiver->shininess);
+    double single = pi_error(view, gather->whole);
     if (cheapest) method = single <= *error ? GATHER_PI : GATHER_REFERENCE;
     if (method != GATHER_REFERENCE) *error = single;
   }
@@ -251,10 +264,10 @@ static bool may_see(const struct view *view) {
   const double per_height = 1 / view->height;
   for (int axis = 0; axis < 2; ++axis) {
     const struct light_axis *along = &view->page->axes[axis];
-    const double rate = along->kappa * view->height - 1, shift = along->kappa * view->foot[axis];
     low[axis] = (-along->half - view->foot[axis]) * per_height;
     high[axis] = (along->half - view->foot[axis]) * per_height;
-    const double ends[2] = {shift + rate * low[axis], shift + rate * high[axis]};
+    const double across = along->kappa * along->half;
+    const double ends[2] = {-across - low[axis], across - high[axis]};
     if ((ends[0] < along->far_low && ends[1] < along->far_low) ||
         (ends[0] > along->far_high && ends[1] > along->far_high))
       return false;
@@ -280,16 +293,12 @@ static bool find_view(const struct gather *gather, const struct look *look, stru
 static enum slab_result find_strips(struct gather *gather, const struct view *view, bool *sees,
                                     struct slab_error *error) {
   struct strips *whole = gather->whole;
-  double low[2], high[2], range[2];
+  double range[2];
   *sees = false;
   enum slab_result result =
       view_strips(view, gather->settings->method == GATHER_VIEWS, whole, error);
   if (result != SLAB_OK || whole[0].count == 0 || whole[1].count == 0) return result;
-  for (int axis = 0; axis < 2; ++axis) {
-    low[axis] = whole[axis].strip[0].low;
-    high[axis] = whole[axis].strip[whole[axis].count - 1].high;
-  }
-  kernel_heights(&view->kernel, low, high, range);
+  heights(view, whole, range);
   *sees = range[1] > 0;
   return SLAB_OK;
 }
@@ -348,7 +357,8 @@ static bool all_visible(const struct gather *gather) {
 static enum slab_result take_look(struct gather *gather, const struct look *look,
                                   struct gathered *gathered, struct slab_error *error) {
   struct view view;
-  bool sees = find_view(gather, look, &view);
+  const bool faces = find_view(gather, look, &view);
+  bool sees = faces;
   const bool open = gather->settings->occlusion && !look->shadows;
   if (sees && !look->shadows && take_cut(gather, look, &view, gathered)) {
     gather->counts.open_views += open;
@@ -358,6 +368,9 @@ static enum slab_result take_look(struct gather *gather, const struct look *look
   if (result != SLAB_OK) return result;
   if (!sees) {
     ++gather->counts.pages_behind;
+    /* There may be light between the views. */
+    if (faces && gather->settings->method == GATHER_VIEWS)
+      note_error(gather, look, INFINITY, gathered);
     return SLAB_OK;
   }
   gather->counts.open_views += open;

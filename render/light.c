@@ -99,6 +99,9 @@ static enum slab_result place(const char *text, const struct light_text *where, 
   return result;
 }
 
+/* Half of the exponents that floats have, less what sums need. */
+enum { UNIT = 100 };
+
 static void set_unit(struct light_page *page) {
   size_t count = 3 * slab_sample_count(&page->slab);
   float peak = 0, *samples = page->slab.rgb;
@@ -106,7 +109,7 @@ static void set_unit(struct light_page *page) {
     if (fabsf(samples[k]) < FLT_MIN) samples[k] = 0;
     peak = fmaxf(peak, fabsf(samples[k]));
   }
-  page->unit = peak > 0 ? ldexp(1, ilogbf(peak) - 60) : 1;
+  page->unit = peak > 0 ? ldexp(1, ilogbf(peak) > 0 ? ilogbf(peak) - UNIT : -UNIT) : 1;
 }
 
 enum slab_result light_page_set_samples(struct light_page *page, struct slab_error *error) {

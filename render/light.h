@@ -32,8 +32,8 @@ struct light_page {
   double frame[3][3]; /* unit vectors u', v' and n */
   struct light_axis axes[2];
   struct dark_row *lit; /* [rows of the raster]: where they are not black; owned */
-  double unit; /* a power of two; samples divided by it are at most about 2^60, so that sums in
-                  single precision neither overflow nor lose small ones */
+  double unit; /* a power of two from 2^-100 on; samples divided by it are at most about 2^100, so
+                  that sums in single precision neither overflow nor lose small ones */
 };
 
 struct light {

@@ -67,13 +67,13 @@ static void interpolate(const struct slab *fine, const struct slab *level, const
 static void add_cell(const struct view *view, const struct light_page *fine, const struct strip *u,
                      const struct strip *v, uint64_t *seed, double irradiance[3], double gloss[3]) {
   double x[SIMD_LANES] = {0}, value[SIMD_LANES], along_u[4], along_v[4], rgb[3];
-  x[0] = u->low + uniform(seed) * (u->high - u->low);
-  double y = v->low + uniform(seed) * (v->high - v->low);
-  double area = (u->high - u->low) * (v->high - v->low);
+  double across = uniform(seed), up = uniform(seed);
+  double y = v->low + up * v->width, area = u->width * v->width;
+  x[0] = u->low + across * u->width;
   double height = kernel_height(&view->kernel, x[0], y), square = 1 + x[0] * x[0] + y * y;
   if (!(height > 0)) return;
-  rule_hats(u, x[0], along_u);
-  rule_hats(v, y, along_v);
+  rule_hats(u, across, along_u);
+  rule_hats(v, up, along_v);
   interpolate(&fine->slab, &view->page->slab, u, v, along_u, along_v, rgb);
   for (int c = 0; c < 3; ++c) irradiance[c] += area * rgb[c] * height / (square * square);
   if (view->kernel.shininess <= 0) return;

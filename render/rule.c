@@ -34,17 +34,20 @@ struct rule_orders rule_orders(double tolerance) {
   return orders;
 }
 
-double rule_ellipse(double low, double high, double pole) {
-  double half = (high - low) / 2, middle = (low + high) / 2 / half, height = pole / half;
+double rule_ellipse(const struct strip *strip, double pole) {
+  double half = strip->width / 2, middle = (strip->low + half) / half, height = pole / half;
   double square = height * height;
   double sum =
       (sqrt((middle + 1) * (middle + 1) + square) + sqrt((middle - 1) * (middle - 1) + square)) / 2;
   return sum > 1 ? sum + sqrt(sum * sum - 1) : 1;
 }
 
-double rule_pi_error(double widest, double shininess) {
+/* Of sums in single precision. */
+static const double rounding = 1e-6;
+
+double rule_pi_error(double widest, double rise, double shininess) {
   double half = widest / 2, curvature = 5.0 / 3 + shininess / 24, slope = 1 + sqrt(shininess) / 2;
-  return curvature * half * half + 1.2 * slope * half;
+  return curvature * half * half + 1.2 * slope * half + rise / (4 - rise) + rounding;
 }
 
 double rule_pole(const struct strips *other) {
@@ -62,8 +65,7 @@ void rule_nodes_free(struct rule_nodes *nodes) {
   *nodes = (struct rule_nodes){0};
 }
 
-void rule_hats(const struct strip *strip, double at, double weight[4]) {
-  double share = (at - strip->low) / (strip->high - strip->low);
+void rule_hats(const struct strip *strip, double share, double weight[4]) {
   double near = strip->near_weight[0] + share * (strip->near_weight[1] - strip->near_weight[0]);
   double far = strip->far_weight[0] + share * (strip->far_weight[1] - strip->far_weight[0]);
   weight[0] = (1 - near) * (1 - far);
@@ -119,7 +121,7 @@ static enum slab_result place_single(struct rule_nodes *nodes, const struct stri
                                      bool means, struct slab_error *error) {
   enum slab_result result = append(nodes, strip, 1, error);
   if (result != SLAB_OK) return result;
-  double *weight = nodes->weight[nodes->count], width = strip->high - strip->low;
+  double *weight = nodes->weight[nodes->count], width = strip->width;
   nodes->at[nodes->count++] = strip->low + width / 2;
   middle_hats(strip, means, weight);
   for (int tap = 0; tap < 4; ++tap) weight[tap] *= width;
@@ -131,11 +133,11 @@ static enum slab_result place_order(struct rule_nodes *nodes, const struct strip
   enum slab_result result = append(nodes, strip, order, error);
   if (result != SLAB_OK) return result;
   const struct rule_gauss *points = rule_gauss(order);
-  double width = strip->high - strip->low;
+  double width = strip->width;
   for (int k = 0; k < order; ++k, ++nodes->count) {
     double *weight = nodes->weight[nodes->count];
     nodes->at[nodes->count] = strip->low + points->at[k] * width;
-    rule_hats(strip, nodes->at[nodes->count], weight);
+    rule_hats(strip, points->at[k], weight);
     for (int tap = 0; tap < 4; ++tap) weight[tap] *= points->weight[k] * width;
   }
   return SLAB_OK;
@@ -153,7 +155,7 @@ static double cut(const struct strip *strip, double pole) {
 static enum slab_result place_gauss(struct rule_nodes *nodes, const struct strip *strip,
                                     const struct rule_orders *orders, double pole,
                                     struct slab_error *error) {
-  double ellipse = rule_ellipse(strip->low, strip->high, pole);
+  double ellipse = rule_ellipse(strip, pole);
   int order = 2;
   while (order <= RULE_LARGEST_ORDER && ellipse < orders->ellipse[order]) ++order;
   double middle = order > RULE_LARGEST_ORDER ? cut(strip, pole) : strip->low;

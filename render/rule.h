@@ -26,9 +26,9 @@ struct rule_orders {
 
 struct rule_orders rule_orders(double tolerance);
 
-/* The ellipse with foci low and high through the poles +-i*pole: the sum of its half axes in
- * units of half the focal distance. */
-double rule_ellipse(double low, double high, double pole);
+/* The ellipse with the strip's ends as foci through the poles +-i*pole: the sum of its half axes
+ * in units of half the focal distance. */
+double rule_ellipse(const struct strip *strip, double pole);
 
 /* The strips of an axis with their nodes. `first` has count + 1 entries: nodes first[k] to
  * first[k+1] belong to strip k. */
@@ -48,8 +48,9 @@ void rule_nodes_free(struct rule_nodes *nodes);
  * most 5/3 h^2, and its slope by about h where radiance rises from nothing within the strip, as
  * all of what is seen can at the rim of a beam (1.15 h was met; where many strips share in the
  * light, a tenth of that). A highlight is about exp(-m x^2/8) for the exponent m: it adds its
- * own curvature and slope. */
-double rule_pi_error(double widest, double shininess);
+ * own curvature and slope. And the cosine rises by up to `rise` of what it is in the middle, 2
+ * where it rises from nothing: a quarter of that, again where radiance does. */
+double rule_pi_error(double widest, double rise, double shininess);
 
 /* Distance of the poles from the axis, given the strips along the other one. */
 double rule_pole(const struct strips *other);
@@ -65,7 +66,7 @@ struct rule_gauss {
 };
 const struct rule_gauss *rule_gauss(int order); /* 1 to RULE_LARGEST_ORDER; thread-safe */
 
-/* Weights of the four samples at a slope within the strip. */
-void rule_hats(const struct strip *strip, double at, double weight[4]);
+/* Weights of the four samples at a share of the strip's width. */
+void rule_hats(const struct strip *strip, double share, double weight[4]);
 
 #endif

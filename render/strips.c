@@ -24,20 +24,17 @@ enum slab_result strips_append(struct strips *strips, const struct strip *strip,
   return SLAB_OK;
 }
 
-/* Inline, where fmin and fmax are calls; there are no NaNs here. */
+/* Inline, where fmin is a call; there are no NaNs here. */
 static inline double lesser(double a, double b) {
   return a < b ? a : b;
 }
 
-static inline double greater(double a, double b) {
-  return a > b ? a : b;
-}
-
-/* An axis as one receiver sees it. */
+/* An axis as one receiver sees it. Slopes x are relative to one of its rays: at the slope `base`,
+ * through the points a and s of the axes. */
 struct sight {
   const struct light_axis *axis;
-  double q, z;
-  double shift, rate; /* s = shift + rate x */
+  double q, z, rate; /* s changes by `rate` x */
+  double base, a, s;
 };
 
 static double near_line(const struct light_axis *axis, int line) {
@@ -53,11 +50,11 @@ static double far_line(const struct light_axis *axis, int line) {
 }
 
 static double near_slope(const struct sight *sight, int line) {
-  return (near_line(sight->axis, line) - sight->q) / sight->z;
+  return (near_line(sight->axis, line) - sight->a) / sight->z;
 }
 
 static double far_slope(const struct sight *sight, int line) {
-  return (far_line(sight->axis, line) - sight->shift) / sight->rate;
+  return (far_line(sight->axis, line) - sight->s) / sight->rate;
 }
 
 static double within(double weight) {
@@ -67,13 +64,13 @@ static double within(double weight) {
 /* Weights of the upper samples where a ray has the slope x. */
 static double near_weight(const struct sight *sight, const struct strip_taps *taps, double x) {
   if (!taps->near_up) return 0;
-  double from_line = sight->q - near_line(sight->axis, taps->near) + x * sight->z;
+  double from_line = sight->a - near_line(sight->axis, taps->near) + x * sight->z;
   return within(from_line / sight->axis->near_step);
 }
 
 static double far_weight(const struct sight *sight, const struct strip_taps *taps, double x) {
   if (!taps->far_up) return 0;
-  double from_line = sight->shift - far_line(sight->axis, taps->far) + x * sight->rate;
+  double from_line = sight->s - far_line(sight->axis, taps->far) + x * sight->rate;
   return within(from_line / sight->axis->far_step);
 }
 
@@ -89,7 +86,23 @@ static void set_far(struct strip_taps *taps, int piece, int count) {
 
 static struct sight make_sight(const struct light_axis *axis, double q, double z) {
   double height = z > 0 ? z : DBL_MIN;
-  return (struct sight){axis, q, height, axis->kappa * q, axis->kappa * height - 1};
+  return (struct sight){.axis = axis, .q = q, .z = height, .rate = axis->kappa * height - 1};
+}
+
+/* Slopes from the ray through a, and through s, on; the other of the two is found from what loses
+ * the fewest digits. */
+static void start_at_near(struct sight *sight, double a) {
+  sight->base = (a - sight->q) / sight->z;
+  sight->a = a;
+  sight->s = sight->axis->kappa * a - sight->base;
+}
+
+static void start_at_far(struct sight *sight, double s) {
+  const double kappa = sight->axis->kappa;
+  sight->base = (s - kappa * sight->q) / sight->rate;
+  sight->s = s;
+  const bool near = kappa * fabs(sight->q) < fabs(s) + fabs(sight->base);
+  sight->a = near ? sight->q + sight->z * sight->base : (s + sight->base) / kappa;
 }
 
 /* The piece that holds s, for a receiver on the st plane, who sees no other; -1 outside. */
@@ -100,20 +113,22 @@ static int piece_at(const struct light_axis *axis, double s) {
   return piece;
 }
 
-/* Slopes between which the far samples are seen, and the piece at the lower one. Ascending
- * slopes meet the pieces in ascending order beyond the st plane, else in descending order. */
-static bool far_range(const struct sight *sight, double *low, double *high, int *piece) {
-  int count = sight->axis->far_count;
+/* Starts from the lowest visible slope. Finds the piece of the far samples there, and the slope
+ * at which they end: ascending slopes meet the pieces in ascending order beyond the st plane, else
+ * in descending order. */
+static bool start(struct sight *sight, int *piece, double *far_high) {
+  const int count = sight->axis->far_count;
+  const bool ascending = sight->rate > 0;
+  start_at_near(sight, near_line(sight->axis, -1));
   if (sight->rate == 0) {
-    *low = -INFINITY;
-    *high = INFINITY;
-    *piece = piece_at(sight->axis, sight->shift);
+    *far_high = INFINITY;
+    *piece = piece_at(sight->axis, sight->s);
     return *piece >= 0;
   }
-  bool ascending = sight->rate > 0;
-  *low = far_slope(sight, ascending ? -1 : count);
-  *high = far_slope(sight, ascending ? count : -1);
   *piece = ascending ? 0 : count;
+  if (far_slope(sight, ascending ? -1 : count) > 0)
+    start_at_far(sight, far_line(sight->axis, ascending ? -1 : count));
+  *far_high = far_slope(sight, ascending ? count : -1);
   return true;
 }
 
@@ -123,13 +138,12 @@ static double near_slope_or_end(const struct sight *sight, int line) {
 
 enum slab_result strips_find(const struct light_axis *axis, double q, double z,
                              struct strips *strips, struct slab_error *error) {
-  const struct sight sight = make_sight(axis, q, z);
-  double far_low, far_high;
+  struct sight sight = make_sight(axis, q, z);
+  double far_high;
   int far, near = 0;
   strips->count = 0;
-  if (!far_range(&sight, &far_low, &far_high, &far)) return SLAB_OK;
-  double low = greater(near_slope(&sight, -1), far_low);
-  double high = lesser(near_slope(&sight, axis->near_count), far_high);
+  if (!start(&sight, &far, &far_high)) return SLAB_OK;
+  double low = 0, high = lesser(near_slope(&sight, axis->near_count), far_high);
   /* Ascending: the piece ends at line `far`; descending: at the line before. */
   int ascending = sight.rate > 0, step = ascending ? 1 : -1;
   int last = ascending ? axis->far_count : 0;
@@ -138,7 +152,7 @@ enum slab_result strips_find(const struct light_axis *axis, double q, double z,
   while (low < high) {
     double end = lesser(lesser(near_end, far_end), high);
     if (end > low) {
-      struct strip strip = {.low = low, .high = end};
+      struct strip strip = {.low = sight.base + low, .high = sight.base + end, .width = end - low};
       set_near(&strip.taps, near, axis->near_count);
       set_far(&strip.taps, far, axis->far_count);
       for (int side = 0; side < 2; ++side) {
@@ -160,18 +174,25 @@ enum slab_result strips_find(const struct light_axis *axis, double q, double z,
   return SLAB_OK;
 }
 
+/* Beyond it, its square is too large for a number. */
+static const double widest_view = 1e150;
+
 enum slab_result strips_find_views(const struct light_axis *axis, double q, double z,
                                    struct strips *strips, struct slab_error *error) {
-  const struct sight sight = make_sight(axis, q, z);
+  struct sight sight = make_sight(axis, q, z);
+  const double width = axis->near_step / sight.z;
   strips->count = 0;
   for (int i = 0; i < axis->near_count; ++i) {
-    double x = near_slope(&sight, i), half = axis->near_step / sight.z / 2;
-    int piece = isfinite(x) ? piece_at(axis, sight.shift + sight.rate * x) : -1;
-    if (piece < 0 || !isfinite(half)) continue;
-    struct strip strip = {.low = x - half, .high = x + half, .taps = {.near = i}};
+    start_at_near(&sight, near_line(axis, i));
+    int piece = isfinite(sight.base) ? piece_at(axis, sight.s) : -1;
+    if (piece < 0 || !(width < widest_view)) continue;
+    struct strip strip = {.low = sight.base - width / 2,
+                          .high = sight.base + width / 2,
+                          .width = width,
+                          .taps = {.near = i}};
     set_far(&strip.taps, piece, axis->far_count);
     for (int side = 0; side < 2; ++side)
-      strip.far_weight[side] = far_weight(&sight, &strip.taps, x);
+      strip.far_weight[side] = far_weight(&sight, &strip.taps, 0);
     enum slab_result result = strips_append(strips, &strip, error);
     if (result != SLAB_OK) return result;
   }
@@ -183,9 +204,9 @@ struct strip strip_part(const struct strip *strip, double low, double high) {
   struct strip part = *strip;
   part.low = fmax(low, strip->low);
   part.high = fmin(high, strip->high);
-  double width = strip->high - strip->low;
+  part.width = part.high - part.low;
   for (int side = 0; side < 2; ++side) {
-    double share = ((side ? part.high : part.low) - strip->low) / width;
+    double share = ((side ? part.high : part.low) - strip->low) / strip->width;
     part.near_weight[side] =
         strip->near_weight[0] + share * (strip->near_weight[1] - strip->near_weight[0]);
     part.far_weight[side] =

@@ -3,8 +3,9 @@
  * A receiver at height z over the uv plane, its foot at q along the axis, looks at the
  * point a of the aperture along the slope x = (a - q)/z. That ray has the st coordinate
  *     s = kappa q + (kappa z - 1) x,
- * one formula for both st planes. Slopes are free of units, and they are relative to the
- * receiver, so nothing is lost near the aperture or far from it.
+ * one formula for both st planes. Slopes are free of units, and all is found relative to the
+ * lowest slope that is visible: relative to the receiver much would be lost far from the aperture,
+ * where all slopes are nearly the same; relative to the aperture, near it.
  *
  * The lines of the uv samples and the projected lines of the st samples merge into one
  * ascending list; between two of them, radiance is the product of two linear functions.
@@ -23,7 +24,8 @@ struct strip_taps {
 };
 
 struct strip {
-  double low, high; /* slopes; low < high */
+  double low, high; /* slopes; far away they may round to the same */
+  double width;     /* high - low > 0, to the last digit */
   struct strip_taps taps;
   double near_weight[2], far_weight[2]; /* of the upper sample, at low and at high */
 };
@@ -42,11 +44,12 @@ enum slab_result strips_find(const struct light_axis *axis, double q, double z,
                              struct strips *strips, struct slab_error *error);
 
 /* One strip a uv sample, as wide as its cell and with its slope in the middle, if it is
- * visible: what a sum over views takes. Strips may reach over the window's edge. */
+ * visible: what a sum over views takes. Strips may reach over the window's edge. None for views
+ * less than 1e-150 of their spacing away: as a point each would send more than numbers hold. */
 enum slab_result strips_find_views(const struct light_axis *axis, double q, double z,
                                    struct strips *strips, struct slab_error *error);
 
-/* The part of a strip between two slopes within it. */
+/* The part of a strip between two slopes. */
 struct strip strip_part(const struct strip *strip, double low, double high);
 
 /* Appends the parts of `from` that lie between two slopes. */
