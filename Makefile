@@ -67,12 +67,12 @@ PACKAGES := $(sort $(PACKAGES_build) \
   $(call goals_need,demo bench figures tradeoff,$(PACKAGES_demo)) \
   $(call goals_need,tradeoff,$(PACKAGES_plot)) \
   $(call goals_need,lamps,$(PACKAGES_lamps)) \
-  $(call goals_need,setup test sanitize,$(PACKAGES_test)) \
+  $(call goals_need,setup test stability sanitize,$(PACKAGES_test)) \
   $(call goals_need,man install,$(PACKAGES_man)) \
   $(call goals_need,lint,$(PACKAGES_lint)))
 
 # Compiling waits for it where the goal is one that sets up by itself.
-SETUP_FIRST := $(call goals_need,setup demo lamps figures tradeoff test bench lint sanitize man install,setup)
+SETUP_FIRST := $(call goals_need,setup demo lamps figures tradeoff test stability bench lint sanitize man install,setup)
 
 all: $(BIN) ## build the programs (the default)
 	@:

@@ -1,7 +1,7 @@
 # Tests: tests/*/test_*.c are cmocka programs, tests/**/*.bats run the program
 # as a user would. Other C files beside a test_*.c are linked with each test of
 # that folder. A test is named by its path without suffix: unit/test_slab.
-# Those in tests/render link what render/ may use, all others what bakeslab/ is.
+# Those in tests/render and tests/numerics link what render/ may use, all others what bakeslab/ is.
 TEST_JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 TEST_TIMEOUT ?= 540
 T := %
@@ -60,6 +60,15 @@ bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(TRADEOFF_LAMPS) $(DE
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
 
+# EFFORT: seeds of each row, in proportion; CASE: one row and seed again, with all numbers.
+NUMERICS := $(B)/tests/numerics/test_numerics
+EFFORT ?= 20
+
+.PHONY: stability
+stability: $(NUMERICS) ## sweep hard cases of the sums; CASE='ROW SEED' repeats one
+	@mkdir -p build/stability
+	@$(NUMERICS) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/index.html)
+
 lint: $(B)/flags ## check formatting, static analysis and house rules
 	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh
 
@@ -70,11 +79,14 @@ $(TEST_SOURCES:%.c=$(B)/%.o) $(TEST_HELPERS:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itest
 # The machine's rate of multiply-adds is that of fused ones.
 $(B)/tests/bench/roofline.o: EXTRA_CFLAGS += -ffp-contract=fast
 
-test_tested = $(B)/$(if $(filter tests/render/%,$(1)),librender.a,libbake.a) $(B)/libslab.a
-test_libs = -lcmocka $(if $(filter tests/render/%,$(1)),-lgmp $(RENDER_LIBS)) $(ALL_LDLIBS)
+TEST_RENDERER := tests/render/% tests/numerics/%
+test_tested = $(B)/$(if $(filter $(TEST_RENDERER),$(1)),librender.a,libbake.a) $(B)/libslab.a
+# What else it is linked with: the oracles of tests/render serve tests/numerics, too.
+test_helpers = $(filter $(dir $(1))% $(if $(filter tests/numerics/%,$(1)),tests/render/%),$(TEST_HELPERS))
+test_libs = -lcmocka $(if $(filter $(TEST_RENDERER),$(1)),-lgmp $(RENDER_LIBS)) $(ALL_LDLIBS)
 
 define test_program
-$(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(filter $(dir $(1))%,$(TEST_HELPERS))) $(call test_tested,$(1))
+$(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(call test_helpers,$(1))) $(call test_tested,$(1))
 	$$(call say,LINK,$$@)
 	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ $$(call test_libs,$(1)) -o $$@
 

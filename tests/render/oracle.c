@@ -1,7 +1,8 @@
 /* oracle.c - the integral over each piece: Gauss-Legendre in y inside
  * Gauss-Legendre in x, on intervals so short that the kernel's poles are far
- * away in terms of their length. The receiver's tangent plane is a line in
- * (x, y): the inner integral ends there, the outer one is split where the line
+ * away in terms of their length. Both run from the piece's lower ends, from
+ * far away the pieces are short and nothing of their lengths must be lost. The receiver's tangent
+ * plane is a line in (x, y): the inner integral ends there, the outer one is split where the line
  * leaves the piece. */
 #include "oracle.h"
 
@@ -65,7 +66,7 @@ struct area {
   long double n[3];           /* the receiver's normal as to outer, inner, height */
   bool magnitude;             /* integrate |L| */
   int less;                   /* nodes fewer than good */
-  long double x;              /* of the outer node */
+  long double x;              /* of the outer node, from the foot */
   long double row[4][3];      /* value at x */
 };
 
@@ -88,30 +89,32 @@ static void integrate(struct area *area, integrand *f, long double a, long doubl
     f(area, (a + b) / 2 + (b - a) / 2 * rule->x[k], (b - a) / 2 * rule->w[k], sum);
 }
 
-/* Weights of the 2 x 2 samples around a piece, at x. */
-static void weights(const struct oracle_piece *piece, long double x, long double w[4]) {
-  long double at = (x - piece->x) / piece->width;
+/* Weights of the 2 x 2 samples around a piece, `from` its lower end. */
+static void weights(const struct oracle_piece *piece, long double from, long double w[4]) {
+  long double at = from / piece->width;
   long double f = piece->uv_at[0] + (piece->uv_at[1] - piece->uv_at[0]) * at;
   long double g = piece->st_at[0] + (piece->st_at[1] - piece->st_at[0]) * at;
   w[0] = (1 - f) * (1 - g), w[1] = (1 - f) * g, w[2] = f * (1 - g), w[3] = f * g;
 }
 
-static void inner_node(struct area *area, long double y, long double weight, long double sum[3]) {
-  long double x = area->x, q = 1 + x * x + y * y, w[4];
+static void inner_node(struct area *area, long double from, long double weight,
+                       long double sum[3]) {
+  long double x = area->x, y = area->inner->x + from, q = 1 + x * x + y * y, w[4];
   long double kernel = weight * (area->n[0] * x + area->n[1] * y - area->n[2]) / (q * q);
-  weights(area->inner, y, w);
+  weights(area->inner, from, w);
   for (int c = 0; c < 3; ++c)
     for (int k = 0; k < 4; ++k) sum[c] += kernel * w[k] * area->row[k][c];
 }
 
-/* Where the tangent plane cuts the inner axis. */
+/* Where the tangent plane cuts the inner piece. */
 static long double tangent(const struct area *area, long double x) {
-  return (area->n[2] - area->n[0] * x) / area->n[1];
+  return (area->n[2] - area->n[0] * x - area->n[1] * area->inner->x) / area->n[1];
 }
 
-static void outer_node(struct area *area, long double x, long double weight, long double sum[3]) {
-  long double w[4], low = area->inner->x, high = low + area->inner->width;
-  weights(area->outer, x, w);
+static void outer_node(struct area *area, long double from, long double weight,
+                       long double sum[3]) {
+  long double w[4], x = area->outer->x + from, low = 0, high = area->inner->width;
+  weights(area->outer, from, w);
   memset(area->row, 0, sizeof area->row);
   for (int o = 0; o < 4; ++o)
     for (int k = 0; k < 4; ++k)
@@ -120,7 +123,7 @@ static void outer_node(struct area *area, long double x, long double weight, lon
   if (area->n[1] > 0) low = fmaxl(low, tangent(area, x));
   if (area->n[1] < 0) high = fminl(high, tangent(area, x));
   if (area->n[1] == 0 && area->n[0] * x - area->n[2] <= 0) return;
-  struct poles poles = {.count = 1, .im = {hypotl(1, x)}};
+  struct poles poles = {.count = 1, .re = {-area->inner->x}, .im = {hypotl(1, x)}};
   integrate(area, inner_node, low, high, &poles, sum);
 }
 
@@ -128,18 +131,17 @@ static void outer_node(struct area *area, long double x, long double weight, lon
 static void piece_integral(struct area *area, long double sum[3]) {
   long double low = area->inner->x, high = low + area->inner->width;
   long double near = low > 0 ? low : high < 0 ? -high : 0;
-  long double cut[4] = {area->outer->x, area->outer->x, area->outer->x,
-                        area->outer->x + area->outer->width};
-  struct poles poles = {.count = 1, .im = {hypotl(1, near)}};
+  long double at = area->outer->x, cut[4] = {0, 0, 0, area->outer->width};
+  struct poles poles = {.count = 1, .re = {-at}, .im = {hypotl(1, near)}};
   if (area->n[1] != 0) { /* 1 + x^2 + (slope x + rise)^2 = 0 */
     long double slope = -area->n[0] / area->n[1], rise = area->n[2] / area->n[1];
-    poles.re[1] = -slope * rise / (1 + slope * slope);
+    poles.re[1] = -slope * rise / (1 + slope * slope) - at;
     poles.im[1] = sqrtl(1 + slope * slope + rise * rise) / (1 + slope * slope);
     poles.count = 2;
   }
   if (area->n[0] != 0) {
-    long double a = (area->n[2] - area->n[1] * low) / area->n[0];
-    long double b = (area->n[2] - area->n[1] * high) / area->n[0];
+    long double a = (area->n[2] - area->n[1] * low - area->n[0] * at) / area->n[0];
+    long double b = (area->n[2] - area->n[1] * high - area->n[0] * at) / area->n[0];
     cut[1] = fminl(fmaxl(fminl(a, b), cut[0]), cut[3]);
     cut[2] = fminl(fmaxl(fmaxl(a, b), cut[0]), cut[3]);
   }
@@ -186,7 +188,7 @@ static void turned(const struct slab *slab, const double n[3], long double turn[
 
 struct oracle_value oracle_irradiance(const struct slab *slab, const double p[3],
                                       const double n[3]) {
-  struct oracle_value value = {{0}, 0};
+  struct oracle_value value = {{0}, {0}, 0};
   static struct oracle_axis axes[2];
   static struct area area;
   long double turn[3], sums[3][3] = {{0}};
@@ -207,6 +209,7 @@ struct oracle_value oracle_irradiance(const struct slab *slab, const double p[3]
   }
   for (int c = 0; c < 3; ++c) {
     value.e[c] = sums[0][c];
+    value.magnitude[c] = sums[2][c];
     if (sums[2][c] > 0)
       value.error = fmaxl(value.error, fabsl(sums[0][c] - sums[1][c]) / sums[2][c]);
   }

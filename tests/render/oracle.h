@@ -34,8 +34,8 @@ struct oracle_axis {
 
 struct oracle_value {
   long double e[3];
-  long double error; /* estimated, the largest of the channels; relative to the
-                        integral of |L| */
+  long double magnitude[3]; /* the integral of |L| */
+  long double error;        /* estimated, the largest of the channels; relative to magnitude */
 };
 
 /* The visible part along u (`which` 0) or v (1), for a receiver at height

@@ -1,0 +1,121 @@
+/* numerics.h - hard cases for the sums over a slab, held against oracles: a table of rows, each
+ * a kind of hard case, by methods. Cases are made from seeds, the same on every machine.
+ *
+ * An error is relative to the light, counted with all samples positive: of the channel for the
+ * methods reference and closed, else of the largest channel; of the cut, or to 1e-4 of the most
+ * that the page could send (cut.h). What rounding the receiver's place and normal to doubles
+ * could do, 1e-15 of each, is no error of the sum: it is taken off.
+ *
+ * Allowed are 1e-9 for reference and closed, whose tolerance is left at 1e-6; the tolerance, 1e-2
+ * to 1e-8, for auto and cut; for the others what they predict (gathered.error), and anything
+ * finite, not negative, where they predict nothing. */
+#ifndef NUMERICS_H
+#define NUMERICS_H
+
+#define receiver test_receiver /* gather.h has another */
+#include "render/helpers.h"
+#undef receiver
+#include "gather.h"
+#include "render/oracle.h"
+
+enum { NUMERICS_ROWS_MAX = 40 };
+
+/* Less light than this of what the lamp could send from all directions is none. */
+#define NUMERICS_DARK 1e-30
+
+/* The worst that a method met in a row. */
+struct tally {
+  double share;    /* error over what is allowed; 0 where nothing is */
+  double error;    /* the largest relative error */
+  uint32_t seed;   /* of the largest share, or else of the largest error */
+  uint64_t values; /* compared */
+  uint64_t stated; /* of these, with something allowed */
+};
+
+/* One seed of a row. */
+struct trial {
+  uint32_t seed, start; /* the random numbers' next; what it began with */
+  struct tally *tally;  /* [GATHER_METHODS] */
+  bool verbose;         /* print what is not allowed */
+};
+
+struct numerics_row {
+  const char *name, *text, *oracle;
+  void (*run)(struct trial *trial);
+  int seeds; /* of a sweep, per unit of effort */
+};
+extern const struct numerics_row numerics_rows[];
+extern const int numerics_row_count;
+
+/* Notes an error of a method, and what is allowed: INFINITY for no claim. */
+void trial_note(struct trial *trial, enum gather_method method, double error, double allowed);
+
+double trial_random(struct trial *trial, double low, double high);     /* evenly */
+double trial_random_log(struct trial *trial, double low, double high); /* in the logarithm */
+int trial_choose(struct trial *trial, int count);
+
+/* A slab as the program loads it. */
+struct lamp {
+  struct slab slab; /* as made; owned */
+  struct light light;
+  struct gather_aids levels, trees;
+  double most;       /* the most that it could send, times the height squared */
+  double hemisphere; /* and from all directions at once */
+  bool positive;     /* no sample is negative */
+};
+void lamp_open(struct lamp *lamp, const struct slab *slab); /* takes the slab over */
+void lamp_close(struct lamp *lamp);
+void lamp_sum(const struct lamp *lamp, enum gather_method method, double tolerance,
+              const struct test_receiver *receiver, struct gathered *gathered,
+              struct gather_counts *counts); /* counts: NULL allowed */
+
+/* By the method paper. */
+void lamp_sum_random(const struct lamp *lamp, uint64_t seed, const struct test_receiver *receiver,
+                     struct gathered *gathered);
+
+/* Holds all methods against the oracle. */
+void trial_hold(struct trial *trial, const struct lamp *lamp, const struct test_receiver *receiver);
+/* Or against values of another one. */
+void trial_hold_value(struct trial *trial, const struct lamp *lamp,
+                      const struct test_receiver *receiver, const struct oracle_value *exact);
+
+/* What rounding the receiver can change, in each channel. */
+void oracle_spread(const struct slab *slab, const struct test_receiver *receiver, double spread[3]);
+
+/* The methods that a row asks for when all behave alike: their tolerance in rounding alone. */
+double method_rounding(enum gather_method method);
+
+/* The table as text and HTML (report.c); returns how many cells miss. */
+int report_print(const struct tally table[][GATHER_METHODS], double seconds);
+bool report_write(const char *path, const struct tally table[][GATHER_METHODS], double seconds);
+
+/* The rows (rows_*.c). */
+void row_distance(struct trial *trial);
+void row_grazing_receiver(struct trial *trial);
+void row_grazing_lamp(struct trial *trial);
+void row_aspect(struct trial *trial);
+void row_st_distance(struct trial *trial);
+void row_range(struct trial *trial);
+void row_offset(struct trial *trial);
+void row_peak(struct trial *trial);
+void row_sizes(struct trial *trial);
+void row_signed(struct trial *trial);
+void row_tangent(struct trial *trial);
+void row_window(struct trial *trial);
+void row_touching(struct trial *trial);
+void row_st_plane(struct trial *trial);
+void row_st_infinity(struct trial *trial);
+void row_lines(struct trial *trial);
+void row_constant(struct trial *trial);
+void row_mpmath(struct trial *trial);
+void row_powers(struct trial *trial);
+void row_units(struct trial *trial);
+void row_symmetry(struct trial *trial);
+void row_superposition(struct trial *trial);
+void row_switches(struct trial *trial);
+void row_strips(struct trial *trial);
+void row_single(struct trial *trial);
+void row_levels(struct trial *trial);
+void row_random(struct trial *trial);
+
+#endif

@@ -1,0 +1,125 @@
+/* test_numerics.c - hard cases stay numerically stable (numerics.h). As a test: a few seeds of
+ * each row. With arguments: a sweep.
+ *
+ *   test_numerics EFFORT JOBS TABLE.html   seeds in proportion, by so many processes
+ *   test_numerics ROW SEED                 one case again, with all numbers */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "numerics.h"
+
+typedef struct tally table[NUMERICS_ROWS_MAX][GATHER_METHODS];
+
+/* A seed's random numbers are those of its row's, too. */
+static void run(int row, uint32_t seed, struct tally *tally, bool verbose) {
+  struct trial trial = {.start = seed, .tally = tally, .verbose = verbose};
+  trial.seed = seed * 2654435761u + (uint32_t)row * 40503u + 1;
+  numerics_rows[row].run(&trial);
+}
+
+static void merge(const table from, table to) {
+  for (int row = 0; row < numerics_row_count; ++row)
+    for (int k = 0; k < GATHER_METHODS; ++k) {
+      const struct tally *a = &from[row][k];
+      struct tally *b = &to[row][k];
+      if (a->share > b->share || (b->share == 0 && a->error > b->error)) b->seed = a->seed;
+      b->share = fmax(a->share, b->share);
+      b->error = fmax(a->error, b->error);
+      b->values += a->values;
+      b->stated += a->stated;
+    }
+}
+
+/* ---- The test: a few seeds. */
+
+static void test_row(void **state) {
+  static table few;
+  const int row = *(const int *)*state;
+  memset(few, 0, sizeof few);
+  for (uint32_t seed = 0; seed < 3; ++seed) run(row, seed, few[row], false);
+  for (int k = 0; k < GATHER_METHODS; ++k) {
+    const struct tally *tally = &few[row][k];
+    if (!(tally->share <= 1))
+      fail_msg("%s by %s: error %.3g, %.3g of what is allowed, seed %u", numerics_rows[row].name,
+               gather_method_name((enum gather_method)k), tally->error, tally->share, tally->seed);
+  }
+}
+
+static int test(void) {
+  static struct CMUnitTest tests[NUMERICS_ROWS_MAX];
+  static int rows[NUMERICS_ROWS_MAX];
+  for (int row = 0; row < numerics_row_count; ++row) {
+    rows[row] = row;
+    tests[row] = (struct CMUnitTest)cmocka_unit_test_prestate(test_row, &rows[row]);
+    tests[row].name = numerics_rows[row].name;
+  }
+  for (int row = numerics_row_count; row < NUMERICS_ROWS_MAX; ++row) tests[row].name = NULL;
+  return _cmocka_run_group_tests("numerics", tests, (size_t)numerics_row_count, NULL, NULL);
+}
+
+/* ---- The sweep. */
+
+/* Every jobs-th seed of each row. */
+static void sweep_part(int part, int jobs, int effort, table sums) {
+  for (int row = 0; row < numerics_row_count; ++row)
+    for (int seed = part; seed < effort * numerics_rows[row].seeds; seed += jobs)
+      run(row, (uint32_t)seed, sums[row], false);
+}
+
+static int sweep(int effort, int jobs, const char *path) {
+  table *parts = mmap(NULL, (size_t)jobs * sizeof *parts, PROT_READ | PROT_WRITE,
+                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  static table all;
+  struct timespec start, end;
+  clock_gettime(CLOCK_MONOTONIC, &start);
+  if (parts == MAP_FAILED) return 1;
+  for (int k = 0; k < jobs; ++k) {
+    pid_t child = fork();
+    if (child < 0) return 1;
+    if (child == 0) {
+      sweep_part(k, jobs, effort, parts[k]);
+      exit(0);
+    }
+  }
+  int status, failed = 0;
+  while (wait(&status) > 0) failed += status != 0;
+  for (int k = 0; k < jobs; ++k) merge((const struct tally(*)[GATHER_METHODS])parts[k], all);
+  clock_gettime(CLOCK_MONOTONIC, &end);
+  double seconds =
+      (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
+  int missed = report_print((const struct tally(*)[GATHER_METHODS])all, seconds);
+  if (!report_write(path, (const struct tally(*)[GATHER_METHODS])all, seconds)) failed = 1;
+  return missed > 0 || failed > 0;
+}
+
+/* ---- One case again. */
+
+static int again(const char *name, const char *seed) {
+  static struct tally tally[GATHER_METHODS];
+  for (int row = 0; row < numerics_row_count; ++row) {
+    if (strcmp(numerics_rows[row].name, name) != 0) continue;
+    run(row, (uint32_t)strtoul(seed, NULL, 10), tally, true);
+    for (int k = 0; k < GATHER_METHODS; ++k)
+      if (tally[k].values > 0)
+        printf("%-12s error %.3g, %.3g of what is allowed\n",
+               gather_method_name((enum gather_method)k), tally[k].error, tally[k].share);
+    return 0;
+  }
+  fprintf(stderr, "test_numerics: %s: no such row; there are:", name);
+  for (int row = 0; row < numerics_row_count; ++row)
+    fprintf(stderr, " %s", numerics_rows[row].name);
+  fprintf(stderr, "\n");
+  return 2;
+}
+
+int main(int argc, char **argv) {
+  if (argc == 3) return again(argv[1], argv[2]);
+  if (argc == 4) return sweep(atoi(argv[1]), atoi(argv[2]), argv[3]);
+  return test();
+}
