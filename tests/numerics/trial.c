@@ -102,6 +102,7 @@ static void sum(const struct lamp *lamp, enum gather_method method, double toler
                                            .tolerance = tolerance,
                                            .level = -1,
                                            .seed = seed};
+  *gathered = (struct gathered){0};
   memcpy(receiver.position, from->p, sizeof receiver.position);
   memcpy(receiver.normal, from->n, sizeof receiver.normal);
   memcpy(receiver.lift, from->n, sizeof receiver.lift);
