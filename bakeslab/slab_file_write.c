@@ -91,9 +91,11 @@ static enum slab_result describe(const char *path, int page, const struct slab *
   struct slab_error why;
   enum slab_result result = slab_check(slab, &why);
   if (result == SLAB_OK && !slab->rgb) result = slab_fail(&why, SLAB_BAD, "has no samples");
+  bool logluv = precision == SLAB_PRECISION_LOGLUV;
+  if (result == SLAB_OK && logluv)
+    slab_tiff_choose_white(slab->rgb, slab_sample_count(slab), raster->white);
   if (result == SLAB_OK)
-    result = slab_json_text(slab, precision == SLAB_PRECISION_LOGLUV ? slab_tiff_white : NULL,
-                            &raster->text, &why);
+    result = slab_json_text(slab, logluv ? raster->white : NULL, &raster->text, &why);
   if (result != SLAB_OK)
     return slab_fail(error, result, "%s: page %d: %s", path, page + 1, why.text);
   int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
@@ -103,7 +105,6 @@ static enum slab_result describe(const char *path, int page, const struct slab *
   raster->block_width = view_is_tile ? ns : PLAIN_TILE;
   raster->block_height = view_is_tile ? nt : PLAIN_TILE;
   raster->precision = precision;
-  memcpy(raster->white, slab_tiff_white, sizeof raster->white);
   raster->rgb = slab->rgb;
   return check_samples(path, page, slab, precision, error);
 }

@@ -11,9 +11,10 @@
 extern "C" {
 #endif
 
-/* XYZ is multiplied by these before encoding, so that white comes back white:
- * SGILOG32 quantises chromaticity, and D65 is not on its grid. */
-extern const double slab_tiff_white[3];
+/* The `white` of a LogLuv page: factors on XYZ before encoding that move a colour onto the
+ * grid to which SGILOG32 rounds chromaticities. Where any pixel is white, that is D65, which
+ * so comes back white; else the mean of all, so that a lamp of one colour keeps it. */
+void slab_tiff_choose_white(const float *rgb, size_t count, double white[3]);
 
 struct slab_tiff; /* owned by whoever opened it */
 

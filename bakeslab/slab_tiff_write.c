@@ -1,5 +1,6 @@
 /* slab_tiff_write.c - writes pages as tiled LogLuv, float or half TIFF. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,19 +11,38 @@
 #include "slab_logluv.h"
 #include "slab_tiff.h"
 
-const double slab_tiff_white[3] = {1.0022531, 1.0, 0.9844087};
-
 /* SGILOG32 holds luminance from 2^-64 to 2^64 and chromaticities u', v' up to
  * 255/410. What is dimmer becomes black. */
 static const double brightest = 0x1p63;
 static const double widest = 255.0 / 410.0;
+
+/* The middle of the grid's cell that a chromaticity falls into. */
+static double grid_middle(double chromaticity) {
+  return (floor(410 * chromaticity) + 0.5) / 410;
+}
+
+void slab_tiff_choose_white(const float *rgb, size_t count, double white[3]) {
+  double sum[3] = {0, 0, 0}, xyz[3];
+  for (size_t k = 0; k < count; ++k) {
+    const float *pixel = rgb + 3 * k;
+    bool is_white = pixel[0] > 0 && pixel[0] == pixel[1] && pixel[1] == pixel[2];
+    slab_logluv_from_rgb(pixel, xyz);
+    for (int c = 0; c < 3; ++c) sum[c] = is_white ? xyz[c] : sum[c] + xyz[c];
+    if (is_white) break;
+  }
+  for (int c = 0; c < 3; ++c) white[c] = 1;
+  if (!(sum[0] > 0 && sum[1] > 0 && sum[2] > 0)) return;
+  double all = sum[0] + 15 * sum[1] + 3 * sum[2];
+  double u = grid_middle(4 * sum[0] / all), v = grid_middle(9 * sum[1] / all);
+  white[0] = 9 * u / (4 * v) * sum[1] / sum[0];
+  white[2] = (12 - 3 * u - 20 * v) / (4 * v) * sum[1] / sum[2];
+}
 
 bool slab_tiff_logluv_holds(const float rgb[3]) {
   if (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) return true;
   if (rgb[0] < 0 || rgb[1] < 0 || rgb[2] < 0) return false; /* readers make them 0 */
   double xyz[3];
   slab_logluv_from_rgb(rgb, xyz);
-  for (int c = 0; c < 3; ++c) xyz[c] *= slab_tiff_white[c];
   double sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
   return xyz[1] > 0 && xyz[1] < brightest && xyz[0] >= 0 && xyz[2] >= 0 &&
          4 * xyz[0] < widest * sum && 9 * xyz[1] < widest * sum;

@@ -55,6 +55,28 @@ static void test_metric(void **state) {
   slab_free(&slab);
 }
 
+/* The flux of a lamp of one colour survives LogLuv, channel by channel: its chromaticity is
+ * not rounded, its luminance by 0.136 % at most. */
+static void test_one_colour(void **state) {
+  (void)state;
+  uint32_t seed = 2;
+  for (int n = 0; n < 40; ++n) {
+    struct slab slab = awkward_slab((const int[]){2, 2, 3, 3}, INFINITY), *back = NULL;
+    struct slab_error error = {{0}};
+    double before[3], after[3], colour[3];
+    int count = 0;
+    for (int c = 0; c < 3; ++c) colour[c] = pow(random_number(&seed), 2) + 1e-3;
+    for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k)
+      slab.rgb[k] = (float)(colour[k % 3] * (double)(k / 3 % 7));
+    assert_ok(slab_file_write(scratch("one.tif"), &slab, 1, SLAB_PRECISION_LOGLUV, &error), &error);
+    assert_ok(slab_file_load_all(scratch("one.tif"), &back, &count, &error), &error);
+    slab_flux(&slab, before), slab_flux(back, after);
+    for (int c = 0; c < 3; ++c) assert_near(after[c] / before[c], 1, 1.4e-3);
+    slab_file_free_all(back, count);
+    slab_free(&slab);
+  }
+}
+
 /* The hemisphere: pi times the area. */
 static void test_hemisphere(void **state) {
   (void)state;
@@ -251,6 +273,7 @@ int main(void) {
       cmocka_unit_test(test_constant_infinite),
       cmocka_unit_test(test_hemisphere),
       cmocka_unit_test(test_metric),
+      cmocka_unit_test(test_one_colour),
       cmocka_unit_test(test_constant_finite),
       cmocka_unit_test(test_against_lookup),
       cmocka_unit_test(test_superposition),
