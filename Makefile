@@ -16,8 +16,8 @@ SETUP ?= yes
 ifeq ($(origin CC),default)
 CC := gcc
 endif
-ifeq ($(filter release debug sanitize,$(config)),)
-$(error config=$(config) is none of release, debug and sanitize)
+ifeq ($(filter release debug sanitize thread fuzz,$(config)),)
+$(error config=$(config) is none of release, debug, sanitize, thread and fuzz)
 endif
 # All cores unless told otherwise, but once: a make below this one shares them.
 ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
@@ -29,6 +29,8 @@ endif
 CFLAGS_release  := -O2 -g
 CFLAGS_debug    := -O0 -g
 CFLAGS_sanitize := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+CFLAGS_thread   := -O1 -g -fsanitize=thread -fno-omit-frame-pointer
+CFLAGS_fuzz     := $(CFLAGS_sanitize) -fsanitize=fuzzer-no-link
 WARN := -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wvla
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null))$(PKG_CFLAGS)
@@ -61,6 +63,7 @@ PACKAGES_lamps := povray povray-includes jq
 PACKAGES_man  := help2man scdoc
 PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_lamps) $(PACKAGES_man) libcmocka-dev libgmp-dev bats \
   povray-examples libtiff-tools groff chromium
+PACKAGES_fuzz := clang libclang-rt-14-dev
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
 PACKAGES := $(sort $(PACKAGES_build) \
@@ -68,11 +71,12 @@ PACKAGES := $(sort $(PACKAGES_build) \
   $(call goals_need,tradeoff,$(PACKAGES_plot)) \
   $(call goals_need,lamps,$(PACKAGES_lamps)) \
   $(call goals_need,setup test stability sanitize,$(PACKAGES_test)) \
+  $(call goals_need,fuzz fuzz_all sanitize,$(PACKAGES_fuzz)) \
   $(call goals_need,man install,$(PACKAGES_man)) \
   $(call goals_need,lint,$(PACKAGES_lint)))
 
 # Compiling waits for it where the goal is one that sets up by itself.
-SETUP_FIRST := $(call goals_need,setup demo lamps figures tradeoff test stability bench lint sanitize man install,setup)
+SETUP_FIRST := $(call goals_need,setup demo lamps figures tradeoff test stability bench lint sanitize fuzz fuzz_all man install,setup)
 
 all: $(BIN) ## build the programs (the default)
 	@:
@@ -86,7 +90,7 @@ include tests/flat.mk
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 	@echo
-	@echo 'config=release|debug|sanitize  CC=clang  prefix=$(prefix)  DESTDIR=  SETUP=no  V=1'
+	@echo 'config=release|debug|sanitize|thread|fuzz  CC=clang  prefix=$(prefix)  DESTDIR=  SETUP=no  V=1'
 	@echo 'make test T=unit/test_slab runs one test; T="cli/% unit/%" runs two folders'
 
 # Installs what dpkg does not know yet; asks neither apt nor the network

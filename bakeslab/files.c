@@ -20,12 +20,20 @@ char *files_read(const char *directory, const char *name) {
   char *text = NULL;
   size_t size = 0;
   FILE *file = path ? fopen(path, "re") : NULL;
-  if (file) {
-    /* No text contains a 0: this reads all of it. */
-    if (getdelim(&text, &size, 0, file) < 0 && text) text[0] = 0;
-    fclose(file);
+  int why = errno;
+  /* No text contains a 0: this reads all of it. */
+  if (file && getdelim(&text, &size, 0, file) < 0) {
+    why = errno;
+    if (feof(file) && text) {
+      text[0] = 0;
+    } else {
+      free(text);
+      text = NULL;
+    }
   }
+  if (file) fclose(file);
   free(path);
+  errno = why;
   return text;
 }
 

@@ -10,7 +10,8 @@
 /* Joins a folder and a name into a new string, or NULL; the caller frees it. */
 char *files_join(const char *directory, const char *name);
 
-/* The text of directory/name with a 0 at its end, or NULL; the caller frees it. */
+/* The text of directory/name with a 0 at its end; the caller frees it. NULL with errno set
+ * where it cannot be read. */
 char *files_read(const char *directory, const char *name);
 
 /* Writes a text and checks that it got to the disk. */

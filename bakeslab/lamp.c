@@ -1,6 +1,7 @@
 /* lamp.c - the probe of a lamp script; see lamp.h. */
 #include "lamp.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,113 +19,15 @@ static const char probe_scene[] = "#declare Canned_Bake_Describe = \"declared.tx
                                   "#include \"" LAMP_SCRIPT "\"\n"
                                   "Canned_Probe()\n";
 
-/* ---- What the script declares ---- */
-
-/* Numbers as canned.inc writes them: mantissa and binary exponent. */
-static bool read_numbers(const char *text, int count, double *numbers) {
-  for (int n = 0; n < count; ++n) {
-    char *end;
-    double mantissa = strtod(text, &end);
-    if (end == text) return false;
-    text = end;
-    long exponent = strtol(text, &end, 10);
-    if (end == text) return false;
-    text = end;
-    numbers[n] = ldexp(mantissa, (int)exponent);
-  }
-  return true;
-}
-
-static bool add_slab(struct lamp *lamp) {
-  struct slab *grown = realloc(lamp->slabs, (size_t)(lamp->slab_count + 1) * sizeof *grown);
-  if (!grown) return false;
-  lamp->slabs = grown;
-  grown[lamp->slab_count] = slab_default();
-  for (int axis = 0; axis < SLAB_AXES; ++axis) grown[lamp->slab_count].samples[axis] = 1;
-  ++lamp->slab_count;
-  return true;
-}
-
-/* A bulb may be too small for the probe to see. */
-static bool read_bulb(const char *value, struct lamp *lamp) {
-  double rgb[3];
-  if (!read_numbers(value, 3, rgb)) return false;
-  lamp->bulbs = true;
-  for (int c = 0; c < 3; ++c) lamp->peak = fmax(lamp->peak, fabs(rgb[c]));
-  return true;
-}
-
-/* One line of what canned.inc tells: a key and its value. Keys up to the first
- * "slab" speak of the lamp, those after one of that slab. */
-static bool read_declaration(char *line, struct lamp *lamp, struct slab *common) {
-  char *value = strchr(line, ' ');
-  if (value) *value++ = 0;
-  if (!strcmp(line, "slab")) return add_slab(lamp);
-  if (!value) return false;
-  struct slab *slab = lamp->slab_count ? &lamp->slabs[lamp->slab_count - 1] : NULL;
-  if (!strcmp(line, "lamp")) {
-    snprintf(common->name, sizeof common->name, "%s", value);
-    return true;
-  }
-  if (!strcmp(line, "radiance_unit")) {
-    snprintf(common->radiance_unit, sizeof common->radiance_unit, "%s", value);
-    return true;
-  }
-  if (!strcmp(line, "needs")) {
-    lamp->needs_declared = true;
-    snprintf(lamp->needs, sizeof lamp->needs, "%s", value);
-    return true;
-  }
-  if (!strcmp(line, "bulb")) return read_bulb(value, lamp);
-  if (!strcmp(line, "metres_per_unit")) return read_numbers(value, 1, &common->metres_per_unit);
-  if (!slab) return false;
-  if (!strcmp(line, "center")) return read_numbers(value, 3, slab->center);
-  if (!strcmp(line, "u")) return read_numbers(value, 3, slab->u);
-  if (!strcmp(line, "v")) return read_numbers(value, 3, slab->v);
-  if (!strcmp(line, "normal")) return read_numbers(value, 3, slab->normal);
-  if (!strcmp(line, "s")) return read_numbers(value, 2, slab->st_window);
-  if (!strcmp(line, "t")) return read_numbers(value, 2, slab->st_window + 2);
-  return !strcmp(line, "distance") && read_numbers(value, 1, &slab->st_distance);
-}
-
 static enum slab_result read_declarations(const struct lamp_source *source, const char *directory,
                                           struct lamp *lamp, struct slab_error *error) {
-  struct slab common = slab_default();
-  char *text = files_read(directory, "declared.txt");
-  enum slab_result result = SLAB_OK;
-  char *rest = text;
-  for (char *line; rest && *rest && (line = strsep(&rest, "\n")) && !result;)
-    if (*line && !read_declaration(line, lamp, &common))
-      result = slab_fail(error, SLAB_BAD,
-                         "%s: canned.inc said \"%s\", which this bakeslab does not know; use the "
-                         "canned.inc that came with it",
-                         source->script, line);
+  char *text = files_read(directory, "declared.txt"); /* none where no macro was called */
+  if (!text && errno != ENOENT)
+    return slab_fail(error, SLAB_IO, "%s/declared.txt: %s", directory, strerror(errno));
+  enum slab_result result = lamp_declarations(text, source->script, lamp, error);
   free(text);
-  if (!result && !lamp->slab_count)
-    result = slab_fail(error, SLAB_BAD,
-                       "%s: declares no slab; it must #include \"canned.inc\" and call Canned_Slab",
-                       source->script);
-  if (!result && !common.name[0])
-    result =
-        slab_fail(error, SLAB_BAD, "%s: has no name; call Canned_Lamp(\"name\")", source->script);
-  for (int n = 0; n < lamp->slab_count && !result; ++n) {
-    struct slab *slab = &lamp->slabs[n];
-    memcpy(slab->name, common.name, sizeof slab->name);
-    memcpy(slab->radiance_unit, common.radiance_unit, sizeof slab->radiance_unit);
-    slab->metres_per_unit = common.metres_per_unit;
-    if (slab->st_distance == 0) slab->st_distance = INFINITY;
-    double length = sqrt(slab->normal[0] * slab->normal[0] + slab->normal[1] * slab->normal[1] +
-                         slab->normal[2] * slab->normal[2]);
-    for (int axis = 0; axis < 3; ++axis) slab->normal[axis] /= length;
-    struct slab_error reason;
-    if (slab_check(slab, &reason))
-      result =
-          slab_fail(error, SLAB_BAD, "%s: Canned_Slab %d: %s", source->script, n + 1, reason.text);
-  }
   return result;
 }
-
-/* ---- What it looks like ---- */
 
 static bool is_marker_row(const struct slab_picture *picture, int row) {
   const float *pixel = picture->rgb + (size_t)row * PROBE_SIDE * 3;

@@ -66,6 +66,11 @@ int lamp_source_library(const struct lamp_source *source, struct lamp_library *l
 /* Puts the user's file names back into a message of POV-Ray's. */
 void lamp_source_rename(const struct lamp_source *source, struct slab_error *error);
 
+/* Reads what canned.inc wrote of the script into a zeroed lamp: slabs, needs, bulbs. `text` is
+ * cut up on the way; NULL is an empty one. Messages begin with `script`. */
+enum slab_result lamp_declarations(char *text, const char *script, struct lamp *lamp,
+                                   struct slab_error *error);
+
 /* Runs the probe in `directory`, which is made if need be, and removed. `effects` are those
  * that the script is to find on; NULL leaves that to its Canned_Needs. `stop` as for
  * povray_run. Free the lamp with lamp_free in any case. */

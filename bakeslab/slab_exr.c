@@ -274,6 +274,11 @@ enum slab_result slab_exr_read(const char *path, struct slab_picture *picture,
   result = slab_exr_open(fd, path, NULL, &exr, error);
   if (result != SLAB_OK) return result;
   const struct slab_raster *raster = slab_exr_part(exr, 0);
+  if (!slab_raster_plausible((double)raster->width * raster->height,
+                             (double)query_size(NULL, exr))) {
+    result = slab_fail(error, SLAB_BAD, "%s: claims more pixels than its bytes can hold", path);
+    goto out;
+  }
   rgb = calloc((size_t)raster->width * (size_t)raster->height, 3 * sizeof(float));
   block = calloc(slab_raster_block_pixels(raster), 3 * sizeof(float));
   if (!rgb || !block) {

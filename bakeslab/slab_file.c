@@ -77,6 +77,23 @@ static enum slab_result recognise(int fd, const char *path, enum kind *kind,
   return slab_fail(error, SLAB_BAD, "%s: is neither TIFF nor EXR, so no light slab", path);
 }
 
+/* All pages together, each with the block that it is decoded by. */
+static enum slab_result check_size(const struct slab_file *file, double bytes,
+                                   struct slab_error *error) {
+  double pixels = 0;
+  for (int page = 0; page < file->count; ++page) {
+    const struct slab_raster *raster = raster_of(file, page);
+    double block = (double)slab_raster_block_pixels(raster);
+    pixels += fmax((double)raster->width * raster->height, block);
+    if (!slab_raster_plausible(pixels, bytes))
+      return slab_fail(error, SLAB_BAD,
+                       "%s: page %d: claims more samples than a file of %.0f bytes can hold; it is "
+                       "damaged",
+                       file->path, page + 1, bytes);
+  }
+  return SLAB_OK;
+}
+
 static enum slab_result parse_page(struct slab_file *file, int page, struct slab_error *error) {
   struct slab_raster *raster = raster_of(file, page);
   struct slab *slab = &file->pages[page];
@@ -101,6 +118,7 @@ enum slab_result slab_file_open(const char *path, struct slab_file **out,
                                 struct slab_error *error) {
   enum slab_result result = SLAB_OK;
   enum kind kind = KIND_TIFF;
+  double bytes = 0;
   *out = NULL;
   bool piped = !strcmp(path, "-");
   if (piped) path = "stdin";
@@ -113,6 +131,8 @@ enum slab_result slab_file_open(const char *path, struct slab_file **out,
   }
   result = recognise(fd, path, &kind, error);
   if (result != SLAB_OK) goto out;
+  bytes = (double)lseek(fd, 0, SEEK_END);
+  lseek(fd, 0, SEEK_SET); /* libtiff reads from where it stands */
   result = kind == KIND_TIFF ? slab_tiff_open(fd, path, &file->tiff, error)
                              : slab_exr_open(fd, path, "lightslab", &file->exr, error);
   fd = -1; /* theirs now */
@@ -124,6 +144,7 @@ enum slab_result slab_file_open(const char *path, struct slab_file **out,
     goto out;
   }
   file->count = count;
+  result = check_size(file, bytes, error);
   for (int page = 0; page < count && result == SLAB_OK; ++page)
     result = parse_page(file, page, error);
 out:

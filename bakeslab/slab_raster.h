@@ -23,6 +23,12 @@ static inline size_t slab_raster_block_pixels(const struct slab_raster *raster) 
   return (size_t)raster->block_width * (size_t)raster->block_height;
 }
 
+/* Whether a file of `bytes` can hold so many pixels: no compression has longer runs than
+ * ZSTD, 128 KB in 4 bytes. Else a few bytes could ask for all the memory there is. */
+static inline bool slab_raster_plausible(double pixels, double bytes) {
+  return 3 * sizeof(float) * pixels <= (1 << 26) + 65536 * bytes;
+}
+
 static inline int slab_raster_columns(const struct slab_raster *raster) {
   if (raster->block_width < 1) return 1; /* scan lines */
   return raster->width / raster->block_width + (raster->width % raster->block_width != 0);

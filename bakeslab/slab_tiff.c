@@ -17,6 +17,7 @@
 struct page {
   struct slab_raster raster;
   bool tiled, separate;
+  uint64_t offset; /* of its directory: by its number libtiff would read all those before */
 };
 
 struct slab_tiff {
@@ -193,10 +194,11 @@ enum slab_result slab_tiff_open(int fd, const char *path, struct slab_tiff **out
   tiff->current = -1;
   for (int page = 0; page < count && result == SLAB_OK; ++page) {
     *tiff->why = 0;
-    if (page > 0 && !TIFFSetDirectory(tiff->tif, (tdir_t)page))
+    if (page > 0 && !TIFFReadDirectory(tiff->tif))
       result = damaged(tiff, page, error);
     else
       result = read_page_header(tiff, page, error);
+    tiff->pages[page].offset = TIFFCurrentDirOffset(tiff->tif);
   }
 out:
   if (result == SLAB_OK) {
@@ -228,7 +230,7 @@ struct slab_raster *slab_tiff_page(struct slab_tiff *tiff, int page) {
 static bool stand_on(struct slab_tiff *tiff, int page) {
   if (tiff->current == page) return true;
   tiff->current = -1;
-  if (!TIFFSetDirectory(tiff->tif, (tdir_t)page)) return false;
+  if (!TIFFSetSubDirectory(tiff->tif, tiff->pages[page].offset)) return false;
   /* Forgotten at every change of directory. */
   if (tiff->pages[page].raster.precision == SLAB_PRECISION_LOGLUV &&
       !TIFFSetField(tiff->tif, TIFFTAG_SGILOGDATAFMT, SGILOGDATAFMT_FLOAT))

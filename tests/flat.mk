@@ -10,6 +10,7 @@ TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TEST_HELPERS := $(filter-out $(TEST_SOURCES),$(wildcard tests/*/*.c))
 TEST_BATS := $(sort $(wildcard tests/*/*.bats tests/*/*/*.bats))
 TEST_NAMES := $(TEST_SOURCES:tests/%.c=%) $(TEST_BATS:tests/%.bats=%)
+include tests/robust.mk
 # Long ones first, so that no core is idle at the end.
 TEST_LONG := $(filter bake/% chain/% house/%,$(TEST_NAMES))
 TEST_CHOSEN := $(filter $(T),$(TEST_LONG) $(filter-out $(TEST_LONG),$(TEST_NAMES)))

@@ -1,0 +1,44 @@
+/* fuzz_words.c - LIGHT, CAMERA and the numbers of options. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "camera.h"
+#include "fuzz.h"
+#include "light_text.h"
+#include "options.h"
+#include "slab_cli.h"
+
+static void read_camera(const char *text) {
+  struct camera camera;
+  struct slab_error error;
+  double forward[3], right[3], up[3], length = 0;
+  if (camera_parse(text, &camera, &error) != SLAB_OK) return;
+  fuzz_check(camera.fov > 0 && camera.fov < 180);
+  camera_axes(&camera, forward, right, up);
+  for (int c = 0; c < 3; ++c) length += right[c] * right[c];
+  fuzz_check(fabs(length - 1) < 1e-9);
+}
+
+static void read_numbers(const char *text) {
+  double numbers[3];
+  uint64_t count = 0;
+  int size[2];
+  if (options_number(text, numbers)) fuzz_check(isfinite(numbers[0]));
+  if (options_numbers(text, 3, numbers)) fuzz_check(isfinite(numbers[2]));
+  if (options_count(text, 1, 1024, &count)) fuzz_check(count >= 1 && count <= 1024);
+  if (cli_parse_size(text, size)) fuzz_check(size[0] >= 1 && size[1] >= 1);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  struct light_text light;
+  struct slab_error error;
+  char *text = fuzz_text(data, size);
+  if (light_text_parse(text, &light, &error) == SLAB_OK) {
+    fuzz_check(light.path && *light.path && light.scale > 0 && isfinite(light.gain));
+    light_text_free(&light);
+  }
+  read_camera(text);
+  read_numbers(text);
+  free(text);
+  return 0;
+}

@@ -1,0 +1,43 @@
+# What is given to break the programs. tests/fuzz/fuzz_*.c are fuzzers, each with its seeds in
+# tests/fuzz/seeds/: the seeds run in `make test` as fuzz/tiff and so on; `make fuzz` builds the
+# fuzzers with libFuzzer and gives each its part of FUZZ_SECONDS.
+FUZZ_SOURCES := $(sort $(wildcard tests/fuzz/fuzz_*.c))
+FUZZ_NAMES := $(FUZZ_SOURCES:tests/fuzz/fuzz_%.c=%)
+FUZZ_SECONDS ?= 60
+TEST_NAMES += $(FUZZ_NAMES:%=fuzz/%)
+
+FUZZ_RENDER := receivers words
+fuzz_libs = $(if $(filter $(FUZZ_RENDER),$(1)),$(RENDER_LIBS)) $(ALL_LDLIBS)
+fuzz_tested = $(if $(filter $(FUZZ_RENDER),$(1)),$(B)/librender.a,$(B)/libbake.a) $(B)/libslab.a
+
+define fuzz_programs
+$(B)/tests/fuzz/corpus_$(1): $(B)/tests/fuzz/fuzz_$(1).o $(B)/tests/fuzz/fuzz.o $(B)/tests/fuzz/corpus.o $(call fuzz_tested,$(1))
+	$$(call say,LINK,$$@)
+	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ $$(call fuzz_libs,$(1)) -o $$@
+
+$(B)/tests/fuzz/$(1).log: $(B)/tests/fuzz/corpus_$(1) FORCE
+	@$$(TEST_ENV) sh tests/run.sh $$@ $$< $$(sort $$(wildcard tests/fuzz/seeds/$(1)/*))
+
+$(B)/tests/fuzz/fuzz_$(1): $(B)/tests/fuzz/fuzz_$(1).o $(B)/tests/fuzz/fuzz.o $(call fuzz_tested,$(1))
+	$$(call say,LINK,$$@)
+	$$(Q)$$(CC) $$(ALL_LDFLAGS) -fsanitize=fuzzer $$^ $$(call fuzz_libs,$(1)) -o $$@
+endef
+$(foreach f,$(FUZZ_NAMES),$(eval $(call fuzz_programs,$(f))))
+
+.PHONY: fuzz fuzz_all
+fuzz: ## let libFuzzer (clang) change the seeds for FUZZ_SECONDS (60) in all
+	+@$(MAKE) --no-print-directory config=fuzz CC=clang fuzz_all
+
+fuzz_all: $(FUZZ_NAMES:%=$(B)/tests/fuzz/fuzz_%)
+	@$(TEST_ENV) FUZZ_SECONDS=$(FUZZ_SECONDS) sh tests/fuzz/run.sh $(FUZZ_NAMES)
+
+# Slab files changed at random, MUTANTS of them; all are read again with each run.
+MUTANTS ?= 10000
+TEST_NAMES += faults/mutants
+
+$(B)/tests/faults/mutants: $(B)/tests/faults/mutants.o $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
+$(B)/tests/faults/mutants.log: $(B)/tests/faults/mutants FORCE
+	@$(TEST_ENV) sh tests/run.sh $@ $< 1 $(MUTANTS) $(sort $(wildcard tests/fuzz/seeds/tiff/* tests/fuzz/seeds/exr/*))
