@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "slab_cli.h"
+#include "slab_json.h"
 
 static json_t *effects_json(const struct bake_work *work, const struct bake_origin *origin) {
   json_t *object = json_object();
@@ -36,6 +37,7 @@ static json_t *command_json(const char *command) {
 char *bake_provenance(const struct bake_work *work, const struct bake_origin *origin) {
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
   const struct bake_noise *noise = &origin->noise;
+  unsigned long lost = slab_json_lost();
   json_t *object =
       json_pack("{s:o, s:s, s:s, s:o, s:s, s:f, s:f}", "command",
                 command_json(work->options->command), "tool", "bakeslab " CANNED_VERSION,
@@ -53,5 +55,7 @@ char *bake_provenance(const struct bake_work *work, const struct bake_origin *or
   if (origin->housing) json_object_set_new(object, "housing", json_string(origin->housing));
   char *text = json_dumps(object, JSON_COMPACT);
   json_decref(object);
-  return text;
+  if (slab_json_lost() == lost) return text;
+  free(text);
+  return NULL;
 }

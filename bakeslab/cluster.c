@@ -87,7 +87,7 @@ static enum slab_result finish_page(const struct work *work, int number, double 
   page->frame = *work->slab;
   page->frame.rgb = NULL;
   page->frame.json = NULL;
-  slab_flux(work->slab, page->flux);
+  if (slab_flux(work->slab, page->flux)) return slab_fail(error, SLAB_MEMORY, "out of memory");
   return SLAB_OK;
 }
 
@@ -141,20 +141,15 @@ static enum slab_result make_page(const struct slab *slab, int number, int light
   return result;
 }
 
-static double brightness(const struct slab *slab) {
-  double flux[3];
-  slab_flux(slab, flux);
-  return flux[0] + flux[1] + flux[2];
-}
-
 /* Shares `lights` among the pages by flux, the next to the page with most of it a
  * light. One each, if there are too few. */
-static void share_lights(const struct slab *slabs, const int *lit, int count, int lights,
-                         int *shares) {
-  double fluxes[CLUSTER_MOST_PAGES];
+static enum slab_result share_lights(const struct slab *slabs, const int *lit, int count,
+                                     int lights, int *shares, struct slab_error *error) {
+  double fluxes[CLUSTER_MOST_PAGES], rgb[3];
   for (int p = 0; p < count; ++p) {
     shares[p] = 1;
-    fluxes[p] = brightness(&slabs[lit[p]]);
+    if (slab_flux(&slabs[lit[p]], rgb)) return slab_fail(error, SLAB_MEMORY, "out of memory");
+    fluxes[p] = rgb[0] + rgb[1] + rgb[2];
   }
   for (int left = lights - count; left > 0; --left) {
     int best = -1;
@@ -162,9 +157,10 @@ static void share_lights(const struct slab *slabs, const int *lit, int count, in
       if (shares[p] < CLUSTER_MOST_LIGHTS &&
           (best < 0 || fluxes[p] / shares[p] > fluxes[best] / shares[best]))
         best = p;
-    if (best < 0) return;
+    if (best < 0) break;
     ++shares[best];
   }
+  return SLAB_OK;
 }
 
 static uint64_t stamp_of(const struct cluster *cluster) {
@@ -201,7 +197,10 @@ enum slab_result cluster_make(const struct slab *slabs, int count, int lights, d
                      "%d lights are too many for a cluster, which has at most %d for each page "
                      "with light; ask for --lights %d",
                      lights, CLUSTER_MOST_LIGHTS, lit_count * CLUSTER_MOST_LIGHTS);
-  if (lights > 0) share_lights(slabs, lit, lit_count, lights, shares);
+  if (lights > 0) {
+    enum slab_result result = share_lights(slabs, lit, lit_count, lights, shares, error);
+    if (result != SLAB_OK) return result;
+  }
   cluster->pages = calloc((size_t)lit_count, sizeof *cluster->pages);
   if (!cluster->pages) return slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int p = 0; p < lit_count; ++p) {

@@ -71,7 +71,7 @@ enum slab_result cluster_target_make(const struct slab *slab, double distance, d
     target->narrowest = fmax(target->narrowest, plane_fan_step(&plane));
   }
   double *flux = target->rgb[target->count];
-  slab_flux(slab, flux);
+  if (slab_flux(slab, flux)) return slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int c = 0; c < 3; ++c) {
     flux[c] /= width * width;
     most = fmax(most, flux[c]);

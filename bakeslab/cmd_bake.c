@@ -332,7 +332,7 @@ int cmd_bake(int argc, char **argv) {
                                          .command = cli_command_line()}};
   struct bake_options *bake_options = &arguments.bake;
   static const struct argp argp = {options, parse_option, usage, doc, cli_options, NULL, NULL};
-  argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+  cli_parse(&argp, argc, argv, &arguments);
   bake_options->libraries = arguments.libraries;
   bake_options->quiet = cli_quiet();
   if (!check_rays(bake_options)) return CLI_USAGE;

@@ -187,7 +187,7 @@ int cmd_check(int argc, char **argv) {
           "  bakeslab check --error lamp.tif\n"
           "  bakeslab check --strict lamps/*.tif"};
   struct options options = {0};
-  argp_parse(&argp, argc, argv, 0, NULL, &options);
+  cli_parse(&argp, argc, argv, &options);
   int status = CLI_OK, warnings = 0;
   for (int k = 0; k < options.count; ++k) {
     struct slab_error error = {{0}};

@@ -77,10 +77,12 @@ static void replace(struct slab *slab, struct slab *with) {
  * cell means nor sharpened. */
 static enum slab_result check_sharpening(const struct options *options, const struct slab *slab,
                                          bool resample_st, struct slab_error *error) {
+  unsigned long lost = slab_json_lost();
   bool sharpened = slab_is_sharpened(slab);
   char *how = slab_json_get(slab, "samples_are");
   bool points = how && !strcmp(how, "\"points\"");
   free(how);
+  if (slab_json_lost() != lost) return slab_fail(error, SLAB_MEMORY, "out of memory");
   if (sharpened && options->sharpen)
     return slab_fail(error, SLAB_BAD, "is sharpened already, as its provenance says");
   if (sharpened && resample_st)
@@ -196,7 +198,7 @@ int cmd_convert(int argc, char **argv) {
              "  bakeslab convert lamp.tif -o - --uv 4x4 | bakeslab info -"};
   struct options options = {0};
   struct slab_error error = {{0}};
-  argp_parse(&argp, argc, argv, 0, NULL, &options);
+  cli_parse(&argp, argc, argv, &options);
   int status = run(&options, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
 }

@@ -57,8 +57,7 @@ static const char *different_frame(const struct slab *a, const struct slab *b) {
 }
 
 /* Prints the page's figures and says whether the samples differ. */
-static bool compare_samples(int page, const struct slab *a, const struct slab *b,
-                            double tolerance) {
+static int compare_samples(int page, const struct slab *a, const struct slab *b, double tolerance) {
   size_t count = 3 * slab_sample_count(a), worst = 0;
   double peak = 0, largest = 0, squares = 0, flux_a[3], flux_b[3];
   for (size_t k = 0; k < count; ++k) {
@@ -73,15 +72,17 @@ static bool compare_samples(int page, const struct slab *a, const struct slab *b
   double rmse = sqrt(squares / (double)count), scale = peak > 0 ? peak : 1;
   int at[SLAB_AXES];
   slab_locate(a, worst, at);
-  slab_flux_metric(a, flux_a);
-  slab_flux_metric(b, flux_b);
+  if (slab_flux_metric(a, flux_a) || slab_flux_metric(b, flux_b)) {
+    cli_complain("out of memory");
+    return TROUBLE;
+  }
   printf("page %d: rmse %.6g (%.3g of the peak %.6g), largest %.6g (%.3g of the peak) at sample "
          "(%d, %d, %d, %d)\n",
          page + 1, rmse, rmse / scale, peak, largest, largest / scale, at[SLAB_U], at[SLAB_V],
          at[SLAB_S], at[SLAB_T]);
   printf("page %d: flux %.6g %.6g %.6g and %.6g %.6g %.6g\n", page + 1, flux_a[0], flux_a[1],
          flux_a[2], flux_b[0], flux_b[1], flux_b[2]);
-  return largest > tolerance * peak;
+  return largest > tolerance * peak ? DIFFER : SAME;
 }
 
 static int compare(const struct options *options) {
@@ -102,8 +103,10 @@ static int compare(const struct options *options) {
   for (int page = 0; page < count[0]; ++page) {
     const char *what = different_frame(&slabs[0][page], &slabs[1][page]);
     if (what) printf("page %d: \"%s\" differs\n", page + 1, what);
-    if (what || compare_samples(page, &slabs[0][page], &slabs[1][page], options->tolerance))
-      status = DIFFER;
+    int found =
+        what ? DIFFER : compare_samples(page, &slabs[0][page], &slabs[1][page], options->tolerance);
+    if (found > status) status = found;
+    if (found == TROUBLE) break;
   }
 out:
   for (int k = 0; k < 2; ++k) slab_file_free_all(slabs[k], count[k]);
@@ -131,7 +134,7 @@ int cmd_diff(int argc, char **argv) {
              "  bakeslab diff before.tif after.tif\n"
              "  bakeslab diff --tolerance 0.022 float.exr logluv.tif"};
   struct options options = {0};
-  argp_parse(&argp, argc, argv, 0, NULL, &options);
+  cli_parse(&argp, argc, argv, &options);
   int status = compare(&options);
   return cli_close_stdout() == CLI_OK ? status : TROUBLE;
 }

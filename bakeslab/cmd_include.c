@@ -10,6 +10,7 @@
 #include "cluster_text.h"
 #include "housing.h"
 #include "include_choose.h"
+#include "slab_exr.h"
 #include "slab_file.h"
 #include "slab_json.h"
 #include "slab_name.h"
@@ -188,30 +189,39 @@ static void print_include(const struct include_choice *choice, const struct incl
     sheet_print(&choice->sheet, text, out);
 }
 
-/* The include waits under its temporary name until the image is in place. */
-static enum slab_result write_files(const struct include_choice *choice,
-                                    const struct include_text *text, const char *include,
-                                    const char *image, struct slab_error *error) {
-  struct slab_output output = {0};
+static enum slab_result compose(const struct include_choice *choice,
+                                const struct include_text *text, struct slab_output *output,
+                                struct slab_error *error) {
   char *content = NULL;
   size_t size = 0;
   FILE *stream = open_memstream(&content, &size);
   if (!stream) return slab_fail(error, SLAB_MEMORY, "out of memory");
   print_include(choice, text, stream);
   enum slab_result result = SLAB_OK;
-  if (fclose(stream) != 0) result = slab_fail(error, SLAB_MEMORY, "out of memory");
-  if (result == SLAB_OK) result = slab_output_begin(&output, include, error);
-  if (result == SLAB_OK && slab_output_write(&output, content, size, 0) != 0)
-    result = slab_fail(error, SLAB_IO, "%s: %m", include);
-  const struct slab_picture *picture = picture_of(choice);
-  if (result == SLAB_OK && picture)
-    result = slab_exr_write(image, picture, 1, text->command, error);
-  if (result == SLAB_OK) {
-    result = slab_output_commit(&output, error);
-    if (result != SLAB_OK && picture) unlink(image);
-  }
-  slab_output_abandon(&output);
+  if (fclose(stream) != 0)
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  else if (slab_output_write(output, content, size, 0) != 0)
+    result = slab_fail(error, SLAB_IO, "%s: cannot be written: %m", output->target);
   free(content);
+  return result;
+}
+
+/* Both are on the disk before either gets its name: they belong together. */
+static enum slab_result write_files(const struct include_choice *choice,
+                                    const struct include_text *text, const char *include,
+                                    const char *image, struct slab_error *error) {
+  struct slab_output outputs[2] = {{0}, {0}};
+  const struct slab_picture *picture = picture_of(choice);
+  enum slab_result result = slab_output_begin(&outputs[0], include, error);
+  if (result == SLAB_OK) result = compose(choice, text, &outputs[0], error);
+  if (result == SLAB_OK) result = slab_output_flush(&outputs[0], error);
+  if (result == SLAB_OK && picture) {
+    result = slab_output_begin(&outputs[1], image, error);
+    if (result == SLAB_OK) result = slab_exr_put(&outputs[1], picture, 1, text->command, error);
+    if (result == SLAB_OK) result = slab_output_commit(&outputs[1], error);
+  }
+  if (result == SLAB_OK) result = slab_output_commit(&outputs[0], error);
+  for (int k = 0; k < 2; ++k) slab_output_abandon(&outputs[k]);
   return result;
 }
 
@@ -237,7 +247,9 @@ static enum slab_result make_lights(const struct arguments *arguments, const str
 static enum slab_result write_include(const struct arguments *arguments, const struct slab *slab,
                                       const char *name, const struct include_choice *choice,
                                       const char *image, struct slab_error *error) {
+  unsigned long lost = slab_json_lost();
   char *housing = slab_json_get_string(slab, "provenance", "housing");
+  if (slab_json_lost() != lost) return slab_fail(error, SLAB_MEMORY, "out of memory");
   int harmless = housing && housing_is_harmless(housing);
   if (*choice->why) cli_note("%s: note: %s", arguments->slab, choice->why);
   if (housing && !harmless)
@@ -285,8 +297,7 @@ int cmd_include(int argc, char **argv) {
                                    .args_doc = "SLAB -o LAMP.inc",
                                    .doc = help_text,
                                    .children = cli_options};
-  error_t status = argp_parse(&argp, argc, argv, 0, NULL, &arguments);
-  if (status != 0) return CLI_USAGE;
+  cli_parse(&argp, argc, argv, &arguments);
   size_t length = strlen(arguments.output);
   for (const char *c = arguments.output; *c; ++c)
     if (iscntrl((unsigned char)*c)) {

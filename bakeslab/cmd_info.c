@@ -45,9 +45,8 @@ static json_t *integers(const int *values, size_t count) {
 }
 
 /* Flux, peak and lowest value. */
-static void add_figures(json_t *page, const struct slab *slab) {
-  double flux[3], peak[3];
-  slab_flux_metric(slab, flux);
+static void add_figures(json_t *page, const struct slab *slab, const double flux[3]) {
+  double peak[3];
   const size_t count = slab_sample_count(slab);
   size_t brightest = 0;
   float most = -INFINITY, lowest = INFINITY;
@@ -77,7 +76,8 @@ static void add_kept(json_t *page, const struct slab *slab, const char *key) {
   free(text);
 }
 
-static json_t *describe(const struct slab *slab, int number, enum slab_precision precision) {
+static json_t *describe(const struct slab *slab, int number, enum slab_precision precision,
+                        const double flux[3]) {
   json_t *page = json_object();
   json_object_set_new(page, "page", json_integer(number));
   json_object_set_new(page, "name", json_string(slab->name));
@@ -93,7 +93,7 @@ static json_t *describe(const struct slab *slab, int number, enum slab_precision
   json_object_set_new(page, "metres_per_unit", json_real(slab->metres_per_unit));
   json_object_set_new(page, "radiance_unit", json_string(slab->radiance_unit));
   add_kept(page, slab, "samples_are");
-  add_figures(page, slab);
+  add_figures(page, slab, flux);
   add_kept(page, slab, "provenance");
   return page;
 }
@@ -155,9 +155,13 @@ static enum slab_result collect(const char *path, json_t *pages, struct slab_err
   enum slab_result result = slab_file_open(path, &file, error);
   for (int page = 0; result == SLAB_OK && page < slab_file_pages(file); ++page) {
     struct slab slab = {0};
+    double flux[3];
     result = slab_file_load(file, page, &slab, error);
+    if (result == SLAB_OK && slab_flux_metric(&slab, flux))
+      result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
     if (result == SLAB_OK)
-      json_array_append_new(pages, describe(&slab, page + 1, slab_file_precision(file, page)));
+      json_array_append_new(pages,
+                            describe(&slab, page + 1, slab_file_precision(file, page), flux));
     slab_free(&slab);
   }
   slab_file_close(file);
@@ -181,11 +185,14 @@ int cmd_info(int argc, char **argv) {
           "  bakeslab info --json lamp.tif | jq '.pages[0].flux'"};
   struct options options = {0};
   struct slab_error error = {{0}};
-  argp_parse(&argp, argc, argv, 0, NULL, &options);
+  cli_parse(&argp, argc, argv, &options);
+  unsigned long lost = slab_json_lost();
   json_t *root = json_object(), *pages = json_array();
   int status = CLI_OK;
   if (collect(options.path, pages, &error) != SLAB_OK) {
     status = cli_fail(&error);
+  } else if (slab_json_lost() != lost) {
+    status = CLI_FAILED; /* said below */
   } else if (options.json) {
     json_object_set_new(root, "file", json_string(options.path));
     json_object_set(root, "pages", pages);
@@ -197,5 +204,9 @@ int cmd_info(int argc, char **argv) {
   }
   json_decref(pages);
   json_decref(root);
+  if (!*error.text && slab_json_lost() != lost) {
+    slab_fail(&error, SLAB_MEMORY, "%s: out of memory", options.path);
+    status = cli_fail(&error);
+  }
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
 }

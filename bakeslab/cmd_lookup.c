@@ -121,7 +121,8 @@ static enum slab_result look_up(struct slab_file *file, struct lazy_page *pages,
   enum slab_result result = SLAB_OK;
   char *line = NULL;
   size_t room = 0;
-  for (long number = 1; result == SLAB_OK && getline(&line, &room, stdin) >= 0; ++number) {
+  for (long number = 1; result == SLAB_OK && !ferror(stdout) && getline(&line, &room, stdin) >= 0;
+       ++number) {
     double ray[6], sum[3] = {0};
     int kind = parse_ray(line, ray);
     if (kind < 0)
@@ -134,7 +135,8 @@ static enum slab_result look_up(struct slab_file *file, struct lazy_page *pages,
       result = add_radiance(file, page, &pages[page], ray, sum, error);
     if (result == SLAB_OK) printf("%.9g %.9g %.9g\n", sum[0], sum[1], sum[2]);
   }
-  if (result == SLAB_OK && ferror(stdin)) result = slab_fail(error, SLAB_IO, "stdin: read error");
+  if (result == SLAB_OK && !ferror(stdout) && !feof(stdin))
+    result = slab_fail(error, SLAB_IO, "stdin: %s", strerror(errno));
   free(line);
   return result;
 }
@@ -184,7 +186,7 @@ int cmd_lookup(int argc, char **argv) {
              "  bakeslab lookup --page 2 lamp.tif < rays.txt"};
   struct options options = {0};
   struct slab_error error = {{0}};
-  argp_parse(&argp, argc, argv, 0, NULL, &options);
+  cli_parse(&argp, argc, argv, &options);
   if (!strcmp(options.path, "-")) {
     cli_complain("-: the rays come from stdin, so the slab must be a file");
     return CLI_USAGE;

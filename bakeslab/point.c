@@ -233,7 +233,7 @@ static enum slab_result gather(const struct slab *slabs, int count, struct far_l
     }
     result = make_far_page(&slabs[k], &lamp->pages[lamp->count++], error);
     if (result != SLAB_OK) return result;
-    slab_flux(&slabs[k], flux);
+    if (slab_flux(&slabs[k], flux)) return slab_fail(error, SLAB_MEMORY, "out of memory");
     double weight = flux[0] + flux[1] + flux[2];
     for (int c = 0; c < 3; ++c) {
       point->center[c] += weight * slabs[k].center[c];

@@ -45,6 +45,7 @@ enum slab_result povray_find(const char *program, struct povray *povray, struct 
   if (pid == 0) {
     dup2(ends[1], STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);
+    signal(SIGPIPE, SIG_DFL);
     execlp(program, program, "--version", (char *)NULL);
     _exit(EXEC_FAILED);
   }
@@ -113,6 +114,7 @@ static void become_povray(const struct povray *povray, const struct povray_job *
   dup2(none, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
+  signal(SIGPIPE, SIG_DFL);
   if (job->preload) setenv("LD_PRELOAD", job->preload, 1);
   execlp(povray->program, povray->program, "render.ini", (char *)NULL);
   _exit(EXEC_FAILED);

@@ -110,7 +110,7 @@ static enum slab_result make_page(const struct slab *slab, int number, int most,
     lights[0] = (lights[0] + 1) / 2;
     lights[1] = (lights[1] + 1) / 2;
   }
-  slab_flux_metric(slab, page->flux);
+  if (slab_flux_metric(slab, page->flux)) return slab_fail(error, SLAB_MEMORY, "out of memory");
   page->faintest = faintest_of(slab) / page->levels[0].peak;
   return sheet_measure(slab, page->levels, page->level_count, error);
 }

@@ -87,12 +87,12 @@ bool slab_ray(const struct slab *slab, const double origin[3], const double dire
 
 /* Radiant flux leaving through the page: the integral of the interpolated
  * radiance times cosine over aperture and window, with lengths in lamp units
- * (slab_flux.c). */
-void slab_flux(const struct slab *slab, double rgb[3]);
+ * (slab_flux.c). Without memory for it: SLAB_MEMORY, and NAN. */
+enum slab_result slab_flux(const struct slab *slab, double rgb[3]);
 
 /* The same with lengths in metres, whatever the unit of radiance: what is printed for
  * people, in slab_flux_unit: "W", "lm", or "relative m2 sr". */
-void slab_flux_metric(const struct slab *slab, double rgb[3]);
+enum slab_result slab_flux_metric(const struct slab *slab, double rgb[3]);
 const char *slab_flux_unit(const struct slab *slab);
 
 #ifdef __cplusplus

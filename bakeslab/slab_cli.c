@@ -93,18 +93,19 @@ static char *append_word(char *out, const char *word) {
   return out;
 }
 
-void cli_set_command_line(const char *program, int argc, char **argv) {
+bool cli_set_command_line(const char *program, int argc, char **argv) {
   size_t room = strlen(program) + 1;
   for (int k = 1; k < argc; ++k) room += 4 * strlen(argv[k]) + 3;
   name_of_program = program;
   free(command_line);
   command_line = malloc(room);
-  if (!command_line) return;
+  if (!command_line) return false;
   char *out = stpcpy(command_line, program); /* wherever it was called from */
   for (int k = 1; k < argc; ++k) {
     *out++ = ' ';
     out = append_word(out, argv[k]);
   }
+  return true;
 }
 
 const char *cli_command_line(void) {

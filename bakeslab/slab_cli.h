@@ -59,14 +59,18 @@ bool cli_parse_size(const char *text, int size[2]);
  * say by argp_error() what is missing. */
 extern const struct argp_child cli_options[];
 
+/* argp_parse with a command's arguments; ends the program where it has no memory. */
+void cli_parse(const struct argp *argp, int argc, char **argv, void *input);
+
 /* Whether -q was given: no notes and no progress. */
 bool cli_quiet(void);
 
 /* The command line that is running, quoted for a shell, with the program's name in front
  * and @FILE arguments expanded; outputs record it. Lives as long as the program. */
 const char *cli_command_line(void);
-/* Sets that and the name in messages. cli_main calls it; argv[0] is not looked at. */
-void cli_set_command_line(const char *program, int argc, char **argv);
+/* Sets that and the name in messages; false without memory. cli_main calls it; argv[0] is not
+ * looked at. */
+bool cli_set_command_line(const char *program, int argc, char **argv);
 
 /* Flushes stdout and says whether all that was printed got there: a full disk
  * or a closed pipe is an error. Returns an exit status. */

@@ -80,15 +80,18 @@ int cli_main(const struct cli_program *program, int argc, char **argv) {
   signal(SIGCHLD, SIG_DFL); /* were it ignored, as some parents leave it, no program that we run
                                could be waited for */
   atexit(cli_check_stdout_at_exit);
+  signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like a full disk */
   argp_err_exit_status = CLI_USAGE;
   snprintf(version, sizeof version, "%s " CANNED_VERSION, program->name);
   argp_program_version = version;
   cli_set_command_line(program->name, argc, argv);
-  if (slab_arguments_expand(argc, argv, &arguments, &error) != SLAB_OK) {
+  enum slab_result result = slab_arguments_expand(argc, argv, &arguments, &error);
+  if (!result && !cli_set_command_line(program->name, arguments.count, arguments.words))
+    result = slab_fail(&error, SLAB_MEMORY, "out of memory");
+  if (result) {
     cli_complain("%s", error.text);
     status = CLI_USAGE;
   } else {
-    cli_set_command_line(program->name, arguments.count, arguments.words);
     status = dispatch(program, arguments.count, arguments.words);
   }
   slab_arguments_free(&arguments);

@@ -16,7 +16,12 @@ static size_t usage_size;
 
 static void tell_usage_error(void) {
   static const char hint[] = "\nTry `";
-  if (fclose(usage_stream) != 0) return;
+  bool said = ftell(usage_stream) > 0;
+  if (fclose(usage_stream) != 0 || !usage_text) {
+    if (said) cli_complain("out of memory");
+    free(usage_text);
+    return;
+  }
   /* File names in a message may have line ends, so the last one that matches. */
   char *end = NULL;
   for (char *at = usage_text; (at = strstr(at, hint)); ++at) end = at;
@@ -50,6 +55,12 @@ static const struct argp_option common_options[] = {
     {"quiet", 'q', NULL, 0, "No notes and no progress on stderr; errors are still told", 0}, {0}};
 static const struct argp common = {.options = common_options, .parser = parse_common};
 const struct argp_child cli_options[] = {{&common, 0, NULL, 0}, {0}};
+
+void cli_parse(const struct argp *argp, int argc, char **argv, void *input) {
+  if (argp_parse(argp, argc, argv, 0, NULL, input) == 0) return;
+  cli_complain("out of memory");
+  exit(CLI_USAGE); /* 1 may mean something to the command */
+}
 
 bool cli_quiet(void) {
   return quiet;

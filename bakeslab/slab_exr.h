@@ -37,7 +37,11 @@ enum slab_result slab_exr_read(const char *path, struct slab_picture *picture,
 enum slab_result slab_exr_write(const char *path, const struct slab_picture *picture, int half,
                                 const char *comment, struct slab_error *error);
 
-/* The same into a file that is already open, several parts: part p is named
+/* The same into a file that is already open. */
+enum slab_result slab_exr_put(struct slab_output *output, const struct slab_picture *picture,
+                              int half, const char *comment, struct slab_error *error);
+
+/* The same, several parts: part p is named
  * "pageP" and carries its text in the string attribute `text_name`. */
 enum slab_result slab_exr_write_parts(struct slab_output *output, const struct slab_raster *parts,
                                       int count, const char *text_name, struct slab_error *error);

@@ -181,12 +181,12 @@ static enum slab_result check_half(const char *path, const struct slab_picture *
   return SLAB_OK;
 }
 
-enum slab_result slab_exr_write(const char *path, const struct slab_picture *picture, int half,
-                                const char *comment, struct slab_error *error) {
-  enum slab_result result = half ? check_half(path, picture, error) : SLAB_OK;
+enum slab_result slab_exr_put(struct slab_output *output, const struct slab_picture *picture,
+                              int half, const char *comment, struct slab_error *error) {
+  enum slab_result result = half ? check_half(output->target, picture, error) : SLAB_OK;
   if (result != SLAB_OK) return result;
   char *text = comment ? strdup(comment) : NULL;
-  if (comment && !text) return slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+  if (comment && !text) return slab_fail(error, SLAB_MEMORY, "%s: out of memory", output->target);
   struct slab_raster parts[2] = {{.width = picture->width,
                                   .height = picture->height,
                                   .precision = half ? SLAB_PRECISION_HALF : SLAB_PRECISION_FLOAT,
@@ -195,13 +195,17 @@ enum slab_result slab_exr_write(const char *path, const struct slab_picture *pic
   parts[1] = parts[0];
   parts[1].layer = "error";
   parts[1].rgb = picture->error;
+  result = slab_exr_write_parts(output, parts, picture->error && !half ? 2 : 1, "comments", error);
+  free(text);
+  return result;
+}
+
+enum slab_result slab_exr_write(const char *path, const struct slab_picture *picture, int half,
+                                const char *comment, struct slab_error *error) {
   struct slab_output output = {0};
-  result = slab_output_begin(&output, path, error);
-  if (result == SLAB_OK)
-    result =
-        slab_exr_write_parts(&output, parts, picture->error && !half ? 2 : 1, "comments", error);
+  enum slab_result result = slab_output_begin(&output, path, error);
+  if (result == SLAB_OK) result = slab_exr_put(&output, picture, half, comment, error);
   if (result == SLAB_OK) result = slab_output_commit(&output, error);
   slab_output_abandon(&output);
-  free(text);
   return result;
 }

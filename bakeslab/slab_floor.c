@@ -338,9 +338,11 @@ static bool square_weights(const struct patch *patch, int axis, double *squares)
 static enum slab_result noise_of(const struct patch *patch, const struct extent *extent,
                                  double level, double *noise, struct slab_error *error) {
   double squares[2][SIDE], sum = 0;
+  unsigned long lost = slab_json_lost();
   double sample = slab_json_get_number(patch->slab, "provenance", "noise", "sample");
   double flux = slab_json_get_number(patch->slab, "provenance", "noise", "flux");
   *noise = NAN;
+  if (slab_json_lost() != lost) return slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int axis = 0; axis < 2; ++axis)
     if (!square_weights(patch, axis, squares[axis]))
       return slab_fail(error, SLAB_MEMORY, "out of memory");

@@ -191,7 +191,7 @@ static void add_row(const struct slab *slab, int j, int l, const double *weights
     }
 }
 
-void slab_flux(const struct slab *slab, double rgb[3]) {
+enum slab_result slab_flux(const struct slab *slab, double rgb[3]) {
   /* With the st plane at infinity all views have the same weights. */
   bool one_view = slab_kappa(slab) == 0;
   int views_u = one_view ? 1 : slab->samples[SLAB_U],
@@ -199,10 +199,12 @@ void slab_flux(const struct slab *slab, double rgb[3]) {
   size_t columns_count = (size_t)views_u * (size_t)slab->samples[SLAB_S];
   struct rules columns = {0}, rows = {0};
   double *weights = calloc(columns_count, sizeof *weights);
-  rgb[0] = rgb[1] = rgb[2] = NAN; /* out of memory */
+  enum slab_result result = SLAB_MEMORY;
+  rgb[0] = rgb[1] = rgb[2] = NAN;
   if (!weights || !make_rules(slab, SLAB_U, views_u, &columns) ||
       !make_rules(slab, SLAB_V, views_v, &rows))
     goto out;
+  result = SLAB_OK;
   rgb[0] = rgb[1] = rgb[2] = 0;
   for (int l = 0; l < slab->samples[SLAB_T]; ++l)
     for (int j = 0; j < slab->samples[SLAB_V]; ++j) {
@@ -216,11 +218,13 @@ out:
   free(weights);
   free_rules(&columns);
   free_rules(&rows);
+  return result;
 }
 
-void slab_flux_metric(const struct slab *slab, double rgb[3]) {
-  slab_flux(slab, rgb);
+enum slab_result slab_flux_metric(const struct slab *slab, double rgb[3]) {
+  enum slab_result result = slab_flux(slab, rgb);
   for (int c = 0; c < 3; ++c) rgb[c] *= slab->metres_per_unit * slab->metres_per_unit;
+  return result;
 }
 
 const char *slab_flux_unit(const struct slab *slab) {

@@ -8,6 +8,38 @@
 
 enum { FORMAT_VERSION = 1 };
 
+static _Thread_local unsigned long lost;
+
+static void *allocate(size_t size) {
+  void *memory = malloc(size);
+  if (!memory) ++lost;
+  return memory;
+}
+
+__attribute__((constructor)) static void watch_allocations(void) {
+  json_set_alloc_funcs(allocate, free);
+}
+
+unsigned long slab_json_lost(void) {
+  return lost;
+}
+
+static enum slab_result no_memory(struct slab_error *error) {
+  return slab_fail(error, SLAB_MEMORY, "out of memory");
+}
+
+static enum slab_result load(const char *text, size_t flags, json_t **root,
+                             struct slab_error *error) {
+  json_error_t why;
+  unsigned long before = lost;
+  *root = json_loads(text, flags, &why);
+  if (*root && lost == before) return SLAB_OK;
+  json_decref(*root);
+  *root = NULL;
+  if (lost != before) return no_memory(error);
+  return slab_fail(error, SLAB_BAD, "malformed JSON: line %d: %s", why.line, why.text);
+}
+
 static enum slab_result get_numbers(const json_t *root, const char *key, double *out, size_t count,
                                     struct slab_error *error) {
   const json_t *array = json_object_get(root, key);
@@ -131,19 +163,14 @@ static enum slab_result get_fields(const json_t *root, struct slab *slab, double
 
 enum slab_result slab_json_parse(const char *text, struct slab *slab, double white[3],
                                  struct slab_error *error) {
-  enum slab_result result;
   double ignored[3];
-  json_error_t json_error;
+  json_t *root;
   *slab = slab_default();
-  json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, &json_error);
-  if (root)
-    result = get_fields(root, slab, white ? white : ignored, error);
-  else
-    result =
-        slab_fail(error, SLAB_BAD, "malformed JSON: line %d: %s", json_error.line, json_error.text);
+  enum slab_result result = load(text, JSON_REJECT_DUPLICATES, &root, error);
+  if (result == SLAB_OK) result = get_fields(root, slab, white ? white : ignored, error);
   if (result == SLAB_OK) {
     slab->json = strdup(text);
-    if (!slab->json) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+    if (!slab->json) result = no_memory(error);
   }
   if (result != SLAB_OK) slab_free(slab);
   json_decref(root);
@@ -153,12 +180,8 @@ enum slab_result slab_json_parse(const char *text, struct slab *slab, double whi
 /* The page's JSON as an object to change, or a new one. */
 static enum slab_result load_object(const struct slab *slab, json_t **root,
                                     struct slab_error *error) {
-  json_error_t json_error;
-  *root = slab->json ? json_loads(slab->json, 0, &json_error) : json_object();
-  if (!*root && slab->json)
-    return slab_fail(error, SLAB_BAD, "malformed JSON: line %d: %s", json_error.line,
-                     json_error.text);
-  if (!*root) return slab_fail(error, SLAB_MEMORY, "out of memory");
+  enum slab_result result = load(slab->json ? slab->json : "{}", 0, root, error);
+  if (result != SLAB_OK) return result;
   if (json_is_object(*root)) return SLAB_OK;
   json_decref(*root);
   *root = NULL;
@@ -189,6 +212,7 @@ enum slab_result slab_json_text(const struct slab *slab, const double white[3], 
                                 struct slab_error *error) {
   *text = NULL;
   json_t *root = NULL;
+  unsigned long before = lost;
   enum slab_result result = slab_check(slab, error);
   if (result == SLAB_OK) result = load_object(slab, &root, error);
   if (result != SLAB_OK) return result;
@@ -217,6 +241,7 @@ enum slab_result slab_json_text(const struct slab *slab, const double white[3], 
   if (!failed) *text = dump(root);
   json_decref(root);
   if (*text) return SLAB_OK;
+  if (lost != before) return no_memory(error);
   return slab_fail(error, SLAB_BAD, "the description cannot be written as JSON%s",
                    failed ? " (is the name UTF-8?)" : "");
 }
@@ -224,24 +249,24 @@ enum slab_result slab_json_text(const struct slab *slab, const double white[3], 
 enum slab_result slab_json_set(struct slab *slab, const char *key, const char *value,
                                struct slab_error *error) {
   json_t *root = NULL, *parsed = NULL;
-  json_error_t json_error;
+  struct slab_error why;
   char *text = NULL;
   enum slab_result result = load_object(slab, &root, error);
   if (result != SLAB_OK) return result;
+  bool set = true;
   if (value) {
-    parsed = json_loads(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &json_error);
-    if (!parsed) {
-      result = slab_fail(error, SLAB_BAD, "\"%s\": malformed JSON: line %d: %s", key,
-                         json_error.line, json_error.text);
+    result = load(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &parsed, &why);
+    if (result != SLAB_OK) {
+      slab_fail(error, result, "\"%s\": %s", key, why.text);
       goto out;
     }
-    json_object_set(root, key, parsed);
+    set = json_object_set(root, key, parsed) == 0;
   } else {
     json_object_del(root, key);
   }
-  text = dump(root);
+  text = set ? dump(root) : NULL;
   if (!text) {
-    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+    result = no_memory(error);
     goto out;
   }
   free(slab->json);
@@ -266,6 +291,7 @@ char *slab_json_get_string(const struct slab *slab, const char *key, const char 
   if (load_object(slab, &root, NULL) != SLAB_OK) return NULL;
   const char *text = json_string_value(json_object_get(json_object_get(root, key), inner));
   char *copy = text ? strdup(text) : NULL;
+  if (text && !copy) ++lost;
   json_decref(root);
   return copy;
 }
@@ -289,8 +315,7 @@ enum slab_result slab_json_set_string(struct slab *slab, const char *key, const 
   json_t *old = json_object_get(root, key);
   json_t *object = json_is_object(old) ? json_incref(old) : json_object();
   char *text = json_object_set_new(object, inner, json_string(value)) == 0 ? dump(object) : NULL;
-  result =
-      text ? slab_json_set(slab, key, text, error) : slab_fail(error, SLAB_MEMORY, "out of memory");
+  result = text ? slab_json_set(slab, key, text, error) : no_memory(error);
   free(text);
   json_decref(object);
   json_decref(root);
@@ -307,6 +332,7 @@ enum slab_result slab_json_record(struct slab *slab, const char *command, const 
                                   bool changed, struct slab_error *error) {
   static const char *const of_samples[] = {"rays", "noise"};
   json_t *root = NULL;
+  unsigned long at_first = lost;
   enum slab_result result = load_object(slab, &root, error);
   if (result != SLAB_OK) return result;
   json_t *old = json_object_get(root, "provenance");
@@ -329,8 +355,8 @@ enum slab_result slab_json_record(struct slab *slab, const char *command, const 
   json_object_set_new(fresh, "tool", string(tool));
   json_object_set_new(fresh, "history", history);
   char *text = dump(fresh);
-  result = text ? slab_json_set(slab, "provenance", text, error)
-                : slab_fail(error, SLAB_MEMORY, "out of memory");
+  result =
+      text && lost == at_first ? slab_json_set(slab, "provenance", text, error) : no_memory(error);
   free(text);
   json_decref(fresh);
   json_decref(root);

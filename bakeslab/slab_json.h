@@ -10,6 +10,10 @@
 extern "C" {
 #endif
 
+/* How many allocations have failed here in this thread. jansson passes over many of them (a
+ * key is not set, a value is not found): compare before and after. */
+unsigned long slab_json_lost(void);
+
 /* Fills a slab's geometry from a text, which it copies into slab->json. The
  * slab is checked; samples stay NULL. `white` (NULL allowed) receives
  * "logluv_white", or ones. On failure the slab is empty. */

@@ -83,6 +83,7 @@ enum slab_result slab_output_begin(struct slab_output *output, const char *path,
 int slab_output_write(struct slab_output *output, const void *bytes, size_t count,
                       uint64_t offset) {
   const char *from = bytes;
+  output->flushed = 0;
   while (count > 0) {
     ssize_t written = pwrite(output->fd, from, count, (off_t)offset);
     if (written < 0 && errno == EINTR) continue;
@@ -97,19 +98,26 @@ int slab_output_write(struct slab_output *output, const void *bytes, size_t coun
   return 0;
 }
 
+enum slab_result slab_output_flush(struct slab_output *output, struct slab_error *error) {
+  if (output->flushed || !output->temporary) return SLAB_OK;
+  if (fsync(output->fd) != 0 && errno != EINVAL)
+    return slab_fail(error, SLAB_IO, "%s: cannot be written: %s", output->target, strerror(errno));
+  output->flushed = 1;
+  return SLAB_OK;
+}
+
 enum slab_result slab_output_commit(struct slab_output *output, struct slab_error *error) {
-  enum slab_result result = SLAB_OK;
+  enum slab_result result = slab_output_flush(output, error);
+  if (result != SLAB_OK) {
+    slab_output_abandon(output);
+    return result;
+  }
   if (!output->temporary) {
     result = copy_to_stdout(output, error);
     slab_output_abandon(output);
     return result;
   }
-  int failed = fsync(output->fd) != 0 && errno != EINVAL;
-  int why = errno;
-  if (close(output->fd) != 0 && !failed) {
-    failed = 1;
-    why = errno;
-  }
+  int failed = close(output->fd) != 0, why = errno;
   output->fd = -1;
   if (!failed && rename(output->temporary, output->target) != 0) {
     failed = 1;

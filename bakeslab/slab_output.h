@@ -16,6 +16,7 @@ struct slab_output {
   int fd;          /* open for reading and writing until it is committed or abandoned */
   char *target;    /* what the file will be called; owned */
   char *temporary; /* owned; NULL when there is nothing to remove */
+  int flushed;     /* nothing was written since */
 };
 
 /* Creates the temporary file. The path "-" is standard output, to which an unnamed
@@ -26,6 +27,10 @@ enum slab_result slab_output_begin(struct slab_output *output, const char *path,
 
 /* Writes all bytes at an offset. On failure errno says why. */
 int slab_output_write(struct slab_output *output, const void *bytes, size_t count, uint64_t offset);
+
+/* Gets all that was written to the disk, so that little can fail when several files that belong
+ * together are committed one after the other. */
+enum slab_result slab_output_flush(struct slab_output *output, struct slab_error *error);
 
 /* Flushes to disk, closes and renames. After a failure nothing is left behind. */
 enum slab_result slab_output_commit(struct slab_output *output, struct slab_error *error);

@@ -91,7 +91,7 @@ static enum slab_result answer(struct work *work, struct slab_error *error) {
       const double *rgb = work->gathered[k].irradiance;
       printf("%.9g %.9g %.9g\n", rgb[0], rgb[1], rgb[2]);
     }
-  } while (result == SLAB_OK && work->receivers.count == BLOCK);
+  } while (result == SLAB_OK && work->receivers.count == BLOCK && !ferror(stdout));
   return result;
 }
 
@@ -178,7 +178,7 @@ int cmd_irradiance(int argc, char **argv) {
   struct arguments arguments = {0};
   struct stats stats = {0};
   struct slab_error error = {{0}};
-  argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+  cli_parse(&argp, argc, argv, &arguments);
   const struct options *options = &arguments.options;
   stats.command = cli_command_line();
   stats.method = gather_method_name(options->method);

@@ -99,7 +99,7 @@ int cmd_pov(int argc, char **argv) {
                             .doc = help_text};
   struct arguments arguments = {0};
   struct slab_error error = {{0}};
-  argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+  cli_parse(&argp, argc, argv, &arguments);
   int status = run(&arguments, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
   options_free(&arguments.options);
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;

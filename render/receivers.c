@@ -1,6 +1,7 @@
 /* receivers.c - see receivers.h. */
 #include "receivers.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,12 +100,15 @@ enum slab_result receivers_read(FILE *in, int most, struct receivers *receivers,
   char *line = NULL;
   size_t room = 0;
   receivers->count = 0;
-  while (result == SLAB_OK && receivers->count < most && getline(&line, &room, in) >= 0) {
+  while (result == SLAB_OK && receivers->count < most) {
+    if (getline(&line, &room, in) < 0) {
+      if (!feof(in)) result = slab_fail(error, SLAB_IO, "stdin: %s", strerror(errno));
+      break;
+    }
     ++receivers->line;
     const char *start = line + strspn(line, WORDS_BLANKS);
     if (*start && *start != '#') result = add(receivers, start, error);
   }
-  if (result == SLAB_OK && ferror(in)) result = slab_fail(error, SLAB_IO, "stdin: read error");
   free(line);
   return result == SLAB_OK ? sort(receivers, error) : result;
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "slab_floor.h"
+#include "slab_json.h"
 #include "slab_output.h"
 #include "slab_progress.h"
 
@@ -130,11 +131,13 @@ enum slab_result stats_write(struct stats *stats, const struct light *lights, in
                              const char *path, struct slab_error *error) {
   stats_phase(stats, NULL);
   struct slab_output output = {0};
+  unsigned long lost = slab_json_lost();
   json_t *object = object_of(stats);
   enum slab_result result = set_floors(object, lights, count, error);
   char *text = json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
   size_t length = text ? strlen(text) : 0;
-  if (result == SLAB_OK && !text) result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
+  if (result == SLAB_OK && (!text || slab_json_lost() != lost))
+    result = slab_fail(error, SLAB_MEMORY, "%s: out of memory", path);
   if (result == SLAB_OK) {
     text[length] = '\n'; /* in place of the final zero */
     result = slab_output_begin(&output, path, error);

@@ -41,3 +41,24 @@ $(B)/tests/faults/mutants: $(B)/tests/faults/mutants.o $(B)/libslab.a
 
 $(B)/tests/faults/mutants.log: $(B)/tests/faults/mutants FORCE
 	@$(TEST_ENV) sh tests/run.sh $@ $< 1 $(MUTANTS) $(sort $(wildcard tests/fuzz/seeds/tiff/* tests/fuzz/seeds/exr/*))
+
+# Memory and disks that fail: a program that runs every command with each of FAULTS faults of
+# a kind, what it preloads, and a stand-in for POV-Ray.
+FAULTS_PROGRAMS := $(B)/tests/faults/faults $(B)/tests/faults/fake_povray $(B)/tests/faults/nomem.so
+TEST_NAMES += faults/bakeslab faults/renderslab
+
+$(B)/tests/faults/faults: $(B)/tests/faults/faults.o $(B)/tests/faults/supervise.o $(B)/libbake.a $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
+$(B)/tests/faults/fake_povray: $(B)/tests/faults/fake_povray.o $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
+$(B)/tests/faults/nomem.so: tests/faults/nomem.c | $(SETUP_FIRST)
+	@mkdir -p $(@D)
+	$(call say,CC,$@)
+	$(Q)$(CC) -O1 -g -D_GNU_SOURCE $(WARN) -fPIC -shared $< -o $@
+
+$(B)/tests/faults/%.log: $(FAULTS_PROGRAMS) $(BIN) FORCE
+	@$(TEST_ENV) TOOLS=$(abspath $(B)/tests/faults) sh tests/run.sh $@ $< $*

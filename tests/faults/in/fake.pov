@@ -1,0 +1,1 @@
+#include "canned.inc"
