@@ -61,7 +61,7 @@ PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
 PACKAGES_lamps := povray povray-includes jq
 PACKAGES_man  := help2man scdoc
-PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_lamps) $(PACKAGES_man) libcmocka-dev libgmp-dev bats \
+PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_lamps) $(PACKAGES_man) libcmocka-dev libgmp-dev bats bubblewrap \
   povray-examples libtiff-tools groff chromium
 PACKAGES_fuzz := clang libclang-rt-14-dev
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck

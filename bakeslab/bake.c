@@ -13,6 +13,7 @@
 #include "lamp_depend.h"
 #include "probe_resolution.h"
 #include "probe_window.h"
+#include "sandbox.h"
 #include "slab_floor.h"
 #include "slab_json.h"
 #include "slab_profile.h"
@@ -214,6 +215,8 @@ enum slab_result bake(const struct bake_options *options, const volatile sig_ato
                            .stop = stop};
   enum slab_result result = slab_file_check_target(options->output, options->precision, error);
   if (!result) result = povray_find(options->povray, &state.povray, error);
+  state.povray.sandbox = options->sandbox;
+  if (!result && options->sandbox) result = sandbox_check(error);
   if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
   if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
   if (!result) result = prepare(&work, &state, report, error);

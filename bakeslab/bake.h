@@ -16,6 +16,7 @@
 struct bake_options {
   const char *lamp, *output;
   const char *povray;           /* program */
+  bool sandbox;                 /* POV-Ray runs in one (sandbox.h) */
   const char *const *libraries; /* Library_Path, NULL-terminated, or NULL */
   int uv[2], st[2];
   bool uv_free, st_free;   /* with a tolerance: these are found out */

@@ -9,27 +9,29 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
 #include "files.h"
 
-static const char scratch_mark[] = "scratch.";
+static const char scratch_mark[] = "scratch.", lock_name[] = "lock";
 
 /* Names that this file gives: keys, scratch folders, the lock. */
 static bool is_ours(const char *name) {
-  return !strcmp(name, "lock") || !strncmp(name, scratch_mark, strlen(scratch_mark)) ||
+  return !strcmp(name, lock_name) || !strncmp(name, scratch_mark, strlen(scratch_mark)) ||
          (strlen(name) == 32 && strspn(name, "0123456789abcdef") == 32);
 }
 
-/* Removes what begins so: all of ours, or the scratch folders of processes that were
- * killed (nobody else holds the store then). */
+/* Removes what begins so: all of ours but the lock, or the scratch folders of processes that
+ * were killed (nobody else holds the store then). */
 static void sweep(const char *directory, const char *beginning) {
   DIR *list = opendir(directory);
   if (!list) return;
   for (struct dirent *entry; (entry = readdir(list));) {
     if (!is_ours(entry->d_name) || strncmp(entry->d_name, beginning, strlen(beginning)) != 0)
       continue;
+    if (!strcmp(entry->d_name, lock_name)) continue;
     char *path = files_join(directory, entry->d_name);
     if (path) files_remove_tree(path);
     free(path);
@@ -37,33 +39,52 @@ static void sweep(const char *directory, const char *beginning) {
   closedir(list);
 }
 
+/* Whether the lock that we hold is still the one in the folder: who held it before us may have
+ * removed both when it was done, and somebody else made new ones. */
+static bool is_current(int lock, const char *path) {
+  struct stat held, there;
+  return fstat(lock, &held) == 0 && stat(path, &there) == 0 && held.st_ino == there.st_ino &&
+         held.st_dev == there.st_dev;
+}
+
+/* Opens and locks the file once; store->lock is -1 where it has to be tried again. */
+static enum slab_result try_lock(const char *path, bool shared, struct bake_store *store,
+                                 struct slab_error *error) {
+  enum slab_result result = files_make_directory(store->directory, error);
+  if (result) return result;
+  store->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (store->lock < 0) /* the folder may just have gone */
+    return errno == ENOENT ? SLAB_OK : slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
+  if (flock(store->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) {
+    if (is_current(store->lock, path)) return SLAB_OK;
+  } else if (errno == EWOULDBLOCK) {
+    result = slab_fail(error, SLAB_IO, "%s: another bake of this output is at work; wait for it",
+                       store->directory);
+  } else {
+    result = slab_fail(error, SLAB_IO, "%s: cannot be locked: %s; bake on another file system",
+                       path, strerror(errno));
+  }
+  close(store->lock); /* the store is another's: closing it here removes nothing */
+  store->lock = -1;
+  return result;
+}
+
 enum slab_result bake_store_open(const char *output, bool shared, struct bake_store *store,
                                  struct slab_error *error) {
+  enum { MOST_TRIES = 1000 };
   *store = (struct bake_store){.lock = -1};
   if (asprintf(&store->directory, "%s.partial", output) < 0) {
     store->directory = NULL;
     return slab_fail(error, SLAB_MEMORY, "out of memory");
   }
-  enum slab_result result = files_make_directory(store->directory, error);
-  if (result) return result;
-  char *path = files_join(store->directory, "lock");
+  char *path = files_join(store->directory, lock_name);
   if (!path) return slab_fail(error, SLAB_MEMORY, "out of memory");
-  store->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (store->lock < 0)
-    result = slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
-  else if (flock(store->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
-    if (errno == EWOULDBLOCK)
-      result = slab_fail(error, SLAB_IO, "%s: another bake of this output is at work; wait for it",
-                         store->directory);
-    else
-      result = slab_fail(error, SLAB_IO, "%s: cannot be locked: %s; bake on another file system",
-                         path, strerror(errno));
-    close(store->lock); /* the store is the other's: closing it here removes nothing */
-    store->lock = -1;
-  } else if (!shared) {
-    sweep(store->directory, scratch_mark);
-  }
+  enum slab_result result = SLAB_OK;
+  for (int tries = 0; !result && store->lock < 0; ++tries)
+    result = tries < MOST_TRIES ? try_lock(path, shared, store, error)
+                                : slab_fail(error, SLAB_IO, "%s: others keep removing it", path);
   free(path);
+  if (!result && !shared) sweep(store->directory, scratch_mark);
   return result;
 }
 
@@ -72,7 +93,7 @@ static bool is_empty(const char *directory) {
   DIR *list = opendir(directory);
   bool empty = true;
   for (struct dirent *entry; list && (entry = readdir(list));)
-    empty &= entry->d_name[0] == '.' || !strcmp(entry->d_name, "lock");
+    empty &= entry->d_name[0] == '.' || !strcmp(entry->d_name, lock_name);
   if (list) closedir(list);
   return empty;
 }
@@ -81,8 +102,12 @@ void bake_store_close(struct bake_store *store, bool finished) {
   /* A store that others share stays; alone with it, nothing of ours does. */
   bool alone = store->lock >= 0 && flock(store->lock, LOCK_EX | LOCK_NB) == 0;
   if (alone && (finished || is_empty(store->directory))) {
+    char *lock = files_join(store->directory, lock_name);
     sweep(store->directory, "");
+    /* Last: without it, the next one takes the store for its own. */
+    if (lock) unlink(lock);
     rmdir(store->directory); /* stays where somebody put something else into it */
+    free(lock);
   }
   if (store->lock >= 0) close(store->lock);
   free(store->directory);

@@ -33,6 +33,7 @@ enum {
   OPTION_GAIN,
   OPTION_CAMERA,
   OPTION_POVRAY,
+  OPTION_SANDBOX,
   OPTION_DEPEND
 };
 
@@ -85,6 +86,10 @@ static const struct argp_option options[] = {
      "run without --shard bakes what is missing and assembles the slab",
      4},
     {"povray", OPTION_POVRAY, "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
+    {"sandbox", OPTION_SANDBOX, 0, 0,
+     "run POV-Ray in a sandbox (bubblewrap): it can read files, but write only to its working "
+     "folder, and has no network",
+     4},
     {"depend", OPTION_DEPEND, "FILE", 0,
      "write a rule for make there: SLAB depends on every file that the script reads (as gcc's "
      "-MD -MF FILE -MP)",
@@ -104,7 +109,8 @@ static const char doc[] =
     "direction) shifts its rays for itself, so that mesh and perspective agree. With "
     "interreflection each batch gathers light for itself, and --camera lays out other batches.\n"
     "\n"
-    "A lamp script is a program: POV-Ray runs it with your rights.\n"
+    "A lamp script is a program: POV-Ray runs it with your rights. With --sandbox it can still "
+    "read all that you can, but change nothing and tell nobody.\n"
     "\n"
     "Examples:\n"
     "  bakeslab bake parabolic.pov -o parabolic.tif\n"
@@ -232,6 +238,9 @@ static error_t parse_means(int key, char *text, struct argp_state *state,
     return 0;
   case OPTION_POVRAY:
     bake->povray = text;
+    return 0;
+  case OPTION_SANDBOX:
+    bake->sandbox = true;
     return 0;
   case OPTION_DEPEND:
     bake->depend = text;

@@ -55,11 +55,15 @@ enum slab_result files_write(const char *directory, const char *name, const char
 }
 
 enum slab_result files_make_directory(const char *path, struct slab_error *error) {
-  if (mkdir(path, 0777) == 0) return SLAB_OK;
-  int reason = errno;
-  struct stat status;
-  if (reason == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)) return SLAB_OK;
-  return slab_fail(error, SLAB_IO, "%s: cannot make this folder: %s", path, strerror(reason));
+  while (mkdir(path, 0777) != 0) {
+    struct stat status;
+    int reason = errno;
+    if (reason == EEXIST && lstat(path, &status) != 0) continue; /* removed meanwhile */
+    if (reason == EEXIST && S_ISLNK(status.st_mode) && stat(path, &status) != 0) status.st_mode = 0;
+    if (reason == EEXIST && S_ISDIR(status.st_mode)) return SLAB_OK;
+    return slab_fail(error, SLAB_IO, "%s: cannot make this folder: %s", path, strerror(reason));
+  }
+  return SLAB_OK;
 }
 
 static int remove_one(const char *path, const struct stat *status, int type, struct FTW *where) {

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "files.h"
+#include "sandbox.h"
 
 enum { EXEC_FAILED = 127 };
 
@@ -115,6 +116,10 @@ static void become_povray(const struct povray *povray, const struct povray_job *
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
   signal(SIGPIPE, SIG_DFL);
+  if (povray->sandbox) {
+    sandbox_exec(povray->program, "render.ini", job->preload);
+    _exit(EXEC_FAILED);
+  }
   if (job->preload) setenv("LD_PRELOAD", job->preload, 1);
   execlp(povray->program, povray->program, "render.ini", (char *)NULL);
   _exit(EXEC_FAILED);
@@ -167,10 +172,12 @@ static enum slab_result report_log(const struct povray_job *job, struct slab_err
 }
 
 enum slab_result povray_finish(const struct povray_job *job, int status, struct slab_error *error) {
-  if (WIFSIGNALED(status))
+  int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (WIFEXITED(status) && WEXITSTATUS(status) > 128) number = WEXITSTATUS(status) - 128;
+  if (number)
     return slab_fail(error, SLAB_IO,
-                     "POV-Ray was killed by signal %d (%s); was memory or disk short?",
-                     WTERMSIG(status), strsignal(WTERMSIG(status)));
+                     "POV-Ray was killed by signal %d (%s); was memory or disk short?", number,
+                     strsignal(number));
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXEC_FAILED)
     return slab_fail(error, SLAB_IO, "%s: POV-Ray could not be started there", job->directory);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2)

@@ -22,6 +22,7 @@
 struct povray {
   char program[4096];
   char version[64]; /* such as "3.7.0.10.unofficial" */
+  bool sandbox;     /* set by the caller: runs it in one (sandbox.h) */
 };
 
 struct povray_job {

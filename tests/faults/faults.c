@@ -130,7 +130,7 @@ static void split(const char *text, char *room, char *argv[MOST_WORDS]) {
   for (char *word = strtok(room, " "); word && count < MOST_WORDS - 1; word = strtok(NULL, " "))
     argv[count++] = word;
   argv[count] = NULL;
-  argv[0] = getenv(strcmp(argv[0], "bakeslab") ? "RENDERSLAB" : "BAKESLAB");
+  argv[0] = getenv(strncmp(text, "bakeslab ", 9) ? "RENDERSLAB" : "BAKESLAB");
 }
 
 static void read_lines(struct run *run) {
@@ -276,8 +276,9 @@ static void prepare(void) {
   must(tools && mkdtemp(top), "TOOLS, and a folder for temporary files");
   snprintf(line, sizeof line,
            "mkdir %s/in && cp tests/fuzz/seeds/tiff/little.tif tests/faults/in/* %s/in && "
-           "cp %s/nomem.so %s/fake_povray %s",
-           top, top, tools, tools, top);
+           "cp %s/nomem.so %s/fake_povray %s && cd %s/in && "
+           "\"$BAKESLAB\" include little.tif --name lamp -o little.inc 2>/dev/null",
+           top, top, tools, tools, top, top);
   must(system(line) == 0, line);
   setenv("FAULT_TELL", "../calls", 1);
 }

@@ -1,0 +1,81 @@
+/* test_store.c - two bakes of the same output: the store has one holder, whoever comes and goes
+ * at the same time. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "bake_store.h"
+
+enum { PROCESSES = 4, TURNS = 500 };
+
+/* In place of the C library's: between opening a lock and taking it, others do much. */
+int flock(int file, int operation) {
+  usleep((useconds_t)(random() % 300));
+  return (int)syscall(SYS_flock, file, operation);
+}
+
+/* Shared by the processes. */
+struct tally {
+  atomic_int holders, opened, refused, wrong;
+};
+
+/* Takes and leaves the store again and again, as bakes do that are done or stopped. */
+static void come_and_go(const char *output, struct tally *tally) {
+  for (int turn = 0; turn < TURNS; ++turn) {
+    struct bake_store store;
+    struct slab_error error;
+    char *scratch = NULL;
+    if (bake_store_open(output, false, &store, &error) == SLAB_OK) {
+      ++tally->opened;
+      if (++tally->holders != 1) ++tally->wrong;
+      if (bake_store_scratch(&store, &scratch, NULL) != SLAB_OK) ++tally->wrong;
+      if (scratch && access(scratch, F_OK) != 0) ++tally->wrong;
+      free(scratch);
+      --tally->holders;
+    } else {
+      ++tally->refused;
+    }
+    bake_store_close(&store, turn % 3 > 0);
+  }
+}
+
+static void test_one_holder(void **state) {
+  (void)state;
+  char folder[] = "/tmp/store.XXXXXX", output[64];
+  struct tally *tally =
+      mmap(NULL, sizeof *tally, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  assert_true(tally != MAP_FAILED);
+  assert_non_null(mkdtemp(folder));
+  snprintf(output, sizeof output, "%s/x.tif", folder);
+  for (int k = 0; k < PROCESSES; ++k)
+    if (fork() == 0) {
+      srandom((unsigned)k);
+      come_and_go(output, tally);
+      _exit(0);
+    }
+  for (int k = 0; k < PROCESSES; ++k) wait(NULL);
+  printf("# %d openings, %d refusals\n", tally->opened, tally->refused);
+  assert_int_equal(tally->opened + tally->refused, PROCESSES * TURNS);
+  assert_int_equal(tally->wrong, 0);
+  assert_true(tally->opened >= TURNS / 10);
+  struct bake_store store;
+  assert_int_equal(bake_store_open(output, false, &store, NULL), SLAB_OK);
+  bake_store_close(&store, true);
+  assert_int_equal(rmdir(folder), 0); /* nothing is left */
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_one_holder)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
