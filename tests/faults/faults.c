@@ -5,7 +5,8 @@
  *
  *   faults NAME...      the commands of faults_commands.h so called, or all of a program
  *
- * FAULTS is how many n are tried for each command and kind of fault, spread evenly; 0 tries all.
+ * FAULTS is how many n are tried for each command and kind of fault, spread evenly (4); 0 tries
+ * all. Commands that take long get fewer, or none.
  * BAKESLAB, RENDERSLAB and TOOLS (of this folder) are needed. */
 #include <dirent.h>
 #include <errno.h>
@@ -263,8 +264,7 @@ static int try_command(const struct faults_command *command, long most) {
   }
   setenv("FAULT_PROGRAM", strncmp(command->line, "bakeslab", 8) ? "renderslab" : "bakeslab", 1);
   for (enum kind kind = MEMORY_ONCE; kind < KINDS; ++kind)
-    if (kind != CHILD_DISK || command->goes_on)
-      failures += try_kind(command, kind, command->slow && most ? (most + 3) / 4 : most, &whole);
+    if (kind != CHILD_DISK || command->goes_on) failures += try_kind(command, kind, most, &whole);
   return failures;
 }
 
@@ -285,6 +285,7 @@ static void prepare(void) {
 
 int main(int argc, char **argv) {
   const char *text = getenv("FAULTS");
+  long most = text ? atol(text) : 4;
   int number = 0, all = 0;
   prepare();
   struct supervised nothing = {.argv = (char *[]){"/bin/true", NULL},
@@ -299,7 +300,11 @@ int main(int argc, char **argv) {
       wanted |= !strcmp(argv[n], command->name) ||
                 !strncmp(argv[n], command->line, strcspn(command->line, " "));
     if (!wanted) continue;
-    int failures = no_means ? 0 : try_command(command, text ? atol(text) : 20);
+    if (most > 0 && most < command->cost) {
+      printf("# %s takes long: only with FAULTS=%d and more\n", command->name, command->cost);
+      continue;
+    }
+    int failures = no_means ? 0 : try_command(command, command->cost ? most / command->cost : most);
     all += failures;
     printf("%sok %d - %s%s\n", failures ? "not " : "", ++number, command->name,
            no_means ? " # SKIP seccomp cannot ask here" : "");

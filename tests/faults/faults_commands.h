@@ -13,8 +13,8 @@ struct faults_command {
   const char *outputs; /* files that it writes */
   int fails_with;      /* exit status; 0: 1 */
   bool goes_on;        /* keeps finished work where it fails */
-  bool slow;
-  bool together; /* the outputs are of use only with each other */
+  int cost;            /* one in so many faults is tried; 0: all */
+  bool together;       /* the outputs are of use only with each other */
 };
 
 static const struct faults_command faults_commands[] = {
@@ -41,44 +41,41 @@ static const struct faults_command faults_commands[] = {
     {.name = "include-sheet",
      .line = "bakeslab include ../in/little.tif --name lamp -o x.inc",
      .outputs = "x.inc x.exr",
-     .slow = true,
+     .cost = 4,
      .together = true},
     {.name = "include-cluster",
      .line = "bakeslab include ../in/little.tif --name lamp -m cluster -l 2 -o x.inc",
      .outputs = "x.inc",
-     .slow = true},
+     .cost = 40},
     {.name = "include-point",
      .line = "bakeslab include ../in/little.tif --name lamp -m point -o x.inc",
      .outputs = "x.inc x.exr",
-     .slow = true,
+     .cost = 4,
      .together = true},
     {.name = "bake",
      .line = "bakeslab bake -q ../in/fake.pov -o x.tif --povray ../fake_povray --uv 3 --st 4 "
              "--rays 8 --jobs 2 --depend x.d",
      .outputs = "x.tif x.d",
      .goes_on = true,
-     .slow = true},
+     .cost = 2},
     {.name = "bake-probe",
      .line = "bakeslab bake -q ../in/fake.pov -o x.exr --povray ../fake_povray --uv 2 --st 4 "
              "--rays 4 --effects probe --window auto --jobs 1",
      .outputs = "x.exr",
      .goes_on = true,
-     .slow = true},
+     .cost = 16},
     {.name = "irradiance",
      .line = "renderslab irradiance --light ../in/little.tif --mesh ../in/square.obj --threads 2",
      .in = "../in/receivers",
-     .outputs = "",
-     .slow = true},
+     .outputs = ""},
     {.name = "image",
      .line = "renderslab image ../in/square.obj --light ../in/little.tif --camera @../in/camera "
              "--size 8x6 --threads 2 -o x.exr --preview x.png",
-     .outputs = "x.exr x.png",
-     .slow = true},
+     .outputs = "x.exr x.png"},
     {.name = "pov",
      .line =
          "renderslab pov ../in/square.obj --light ../in/little.tif --camera @../in/camera -o x.pov",
-     .outputs = "x.pov",
-     .slow = true},
+     .outputs = "x.pov"},
 };
 enum { faults_command_count = sizeof faults_commands / sizeof *faults_commands };
 

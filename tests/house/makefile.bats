@@ -14,7 +14,7 @@ load house
   run house_make config=fast all
   [ "$status" -eq 2 ]
   [ "${#lines[@]}" -eq 1 ]
-  [[ $output == *"config=fast is none of release, debug and sanitize"* ]]
+  [[ $output == *"config=fast is none of release, debug, sanitize, thread and fuzz"* ]]
 }
 
 @test "a test that does not exist is refused with a list" {
