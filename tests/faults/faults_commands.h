@@ -21,7 +21,7 @@ static const struct faults_command faults_commands[] = {
     {.name = "info", .line = "bakeslab info ../in/little.tif", .outputs = ""},
     {.name = "info-json", .line = "bakeslab info --json ../in/little.tif", .outputs = ""},
     {.name = "info-stdin", .line = "bakeslab info -", .in = "../in/little.tif", .outputs = ""},
-    {.name = "check", .line = "bakeslab check --error ../in/little.tif", .outputs = ""},
+    {.name = "check", .line = "bakeslab check --error ../in/little.tif", .outputs = "", .cost = 4},
     {.name = "lookup",
      .line = "bakeslab lookup ../in/little.tif",
      .in = "../in/rays",
