@@ -47,10 +47,11 @@ bool shadowed(vec3 p, vec3 plane, int map) {
 }
 #endif
 
+// Software renderers do both sides of a branch: weights of 0 are cheaper.
 vec3 slide(vec2 slope, vec2 at, float layer) {
   vec2 st = (kappa*at - slope - window.xy)*window.zw;
-  if (any(lessThan(st, vec2(0))) || any(greaterThan(st, vec2(1)))) return vec3(0);
-  return textureLod(slides, vec3(st, layer), 0).rgb;
+  vec2 inside = step(0, st)*step(st, vec2(1));
+  return inside.x*inside.y*textureLod(slides, vec3(st, layer), 0).rgb;
 }
 
 void main() {
@@ -71,8 +72,7 @@ void main() {
     vec4 view = texelFetch(views, k);
     float part = min(k - first + 1, share.y) - max(k - first, share.x);
     vec2 slope = (view.xy - p.xy)/p.z;
-    float height = dot(n.xy, slope) - n.z, square = 1 + dot(slope, slope);
-    if (height <= 0) continue;
+    float height = max(dot(n.xy, slope) - n.z, 0), square = 1 + dot(slope, slope);
     vec3 light = slide(slope, view.xy, view.z);
 #ifdef SHADOWS
     if (light == vec3(0) || shadowed(p, plane, int(view.w))) continue;
@@ -82,7 +82,7 @@ void main() {
 #ifdef GLOSS
     float r = sqrt(square);
     float along = dot(n, normalize(vec3(slope, -1)/r + e));
-    if (along > 0 && point.w > 0) glossy += light*(pow(along, point.w)/(r*square));
+    if (height > 0 && along > 0 && point.w > 0) glossy += light*(pow(along, point.w)/(r*square));
 #endif
   }
   float size = area/(p.z*p.z);
