@@ -5,7 +5,8 @@
 #include "slab_error.h"
 
 /* The texts, named after their files (flat.mk makes them). */
-extern const char gl_all_vert[], gl_sum_frag[], gl_map_vert[], gl_map_frag[];
+extern const char gl_all_vert[], gl_sum_frag[], gl_map_vert[], gl_map_frag[], gl_raster_vert[],
+    gl_raster_frag[], gl_radiance_frag[], gl_change_frag[], gl_screen_frag[];
 
 /* Compiles and links; `defines` is put before both texts. The program is deleted with
  * glDeleteProgram. */

@@ -3,7 +3,7 @@
 
 #include "gl_sum.h"
 
-static unsigned make_texture(int width, int height) {
+unsigned gl_receivers_texture(int width, int height) {
   unsigned texture;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
@@ -20,12 +20,12 @@ enum slab_result gl_receivers_create(int width, int height, const struct gl_limi
   if (width > limits->texture || height > limits->texture)
     return gl_fail(error, SLAB_BAD, "a picture of %d x %d; this driver's textures have %d", width,
                    height, limits->texture);
-  receivers->position = make_texture(width, height);
-  receivers->normal = make_texture(width, height);
-  receivers->lift = make_texture(width, height);
-  receivers->eye = make_texture(width, height);
-  receivers->irradiance = make_texture(width, height);
-  receivers->gloss = make_texture(width, height);
+  receivers->position = gl_receivers_texture(width, height);
+  receivers->normal = gl_receivers_texture(width, height);
+  receivers->lift = gl_receivers_texture(width, height);
+  receivers->eye = gl_receivers_texture(width, height);
+  receivers->irradiance = gl_receivers_texture(width, height);
+  receivers->gloss = gl_receivers_texture(width, height);
   enum slab_result result = gl_check("the picture", error);
   glGenFramebuffers(1, &receivers->target);
   glBindFramebuffer(GL_FRAMEBUFFER, receivers->target);

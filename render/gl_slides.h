@@ -30,6 +30,7 @@ struct gl_slides {
   double group_half[2];             /* sides of a group, halved */
   unsigned views, views_buffer;     /* `at` as a texture */
   unsigned middles, middles_buffer; /* `middle` as a texture */
+  bool behind;                      /* nothing is in front: gl_sum.h skips it; false */
   bool *drawn;                      /* [groups]: their maps, where they are kept; false */
 };
 

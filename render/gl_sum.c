@@ -223,7 +223,7 @@ enum slab_result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *recei
   for (int page = 0; page < sum->pages; ++page) {
     const struct gl_slides *slides = &sum->slides[page];
     double share[2] = {from * slides->count, to * slides->count};
-    add_page(sum, receivers, program, slides, share);
+    if (!slides->behind) add_page(sum, receivers, program, slides, share);
   }
   glDisable(GL_BLEND);
   return gl_check("the sum over views", error);

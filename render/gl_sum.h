@@ -26,6 +26,8 @@ struct gl_receivers {
 
 enum slab_result gl_receivers_create(int width, int height, const struct gl_limits *limits,
                                      struct gl_receivers *receivers, struct slab_error *error);
+/* One more such texture of four floats a pixel, deleted with glDeleteTextures. */
+unsigned gl_receivers_texture(int width, int height);
 void gl_receivers_free(struct gl_receivers *receivers); /* zeroed receivers allowed */
 
 struct gl_sum_settings {

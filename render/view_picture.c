@@ -1,0 +1,144 @@
+/* view_picture.c - see view_picture.h. */
+#include "view_picture.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+#include "vector.h"
+
+static void find_box(const struct scene *scene, double low[3], double high[3]) {
+  for (int c = 0; c < 3; ++c) {
+    low[c] = INFINITY;
+    high[c] = -INFINITY;
+    for (size_t k = 0; k < scene->vertices; ++k) {
+      low[c] = fmin(low[c], scene->position[k][c]);
+      high[c] = fmax(high[c], scene->position[k][c]);
+    }
+  }
+}
+
+enum slab_result view_picture_create(const struct view_world *world, const struct view_sum *how,
+                                     int width, int height, struct view_picture *picture,
+                                     struct slab_error *error) {
+  struct gl_limits limits;
+  *picture = (struct view_picture){.world = world};
+  find_box(world->scene, picture->low, picture->high);
+  enum slab_result result = gl_context_check(&limits, error);
+  if (result == SLAB_OK) result = gl_raster_create(world->scene, &limits, &picture->raster, error);
+  if (result == SLAB_OK) result = gl_show_create(&picture->show, error);
+  if (result == SLAB_OK) result = view_picture_set_sum(picture, how, error);
+  if (result == SLAB_OK) result = view_picture_resize(picture, width, height, error);
+  if (result != SLAB_OK) view_picture_free(picture);
+  return result;
+}
+
+static void free_receivers(struct view_picture *picture) {
+  view_lamps_free(&picture->lamps);
+  if (picture->surfaces.target) gl_surfaces_free(&picture->surfaces);
+  if (picture->receivers.target) gl_receivers_free(&picture->receivers);
+}
+
+void view_picture_free(struct view_picture *picture) {
+  free_receivers(picture);
+  gl_sum_free(&picture->sum);
+  gl_show_free(&picture->show);
+  gl_raster_free(&picture->raster);
+  *picture = (struct view_picture){0};
+}
+
+/* Does the page have something in front of it? By the scene's box. */
+static bool lights_something(const struct view_picture *picture, const struct light_page *page) {
+  double farthest = 0;
+  for (int c = 0; c < 3; ++c)
+    farthest += fmax((picture->low[c] - page->center[c]) * page->frame[2][c],
+                     (picture->high[c] - page->center[c]) * page->frame[2][c]);
+  return farthest > 0;
+}
+
+static void count_views(struct view_picture *picture) {
+  picture->views = picture->black = picture->behind = 0;
+  for (int k = 0; k < picture->sum.pages; ++k) {
+    struct gl_slides *slides = &picture->sum.slides[k];
+    const struct light_axis *axes = slides->page->axes;
+    slides->behind = !lights_something(picture, slides->page);
+    picture->views += slides->behind ? 0 : slides->count;
+    picture->behind += slides->behind ? slides->count : 0;
+    picture->black += (int64_t)axes[0].near_count * axes[1].near_count - slides->count;
+  }
+}
+
+enum slab_result view_picture_set_sum(struct view_picture *picture, const struct view_sum *how,
+                                      struct slab_error *error) {
+  const struct view_world *world = picture->world;
+  struct gl_sum_settings settings = {.lights = world->lights,
+                                     .light_count = world->light_count,
+                                     .levels = world->aids->levels,
+                                     .level = how->level,
+                                     .occluders = how->shadows ? world->scene : NULL,
+                                     .map_size = world->map_size,
+                                     .groups = how->groups};
+  gl_sum_free(&picture->sum);
+  enum slab_result result = gl_sum_create(&settings, &picture->sum, error);
+  if (result == SLAB_OK) count_views(picture);
+  return result;
+}
+
+enum slab_result view_picture_resize(struct view_picture *picture, int width, int height,
+                                     struct slab_error *error) {
+  free_receivers(picture);
+  enum slab_result result =
+      gl_receivers_create(width, height, &picture->sum.limits, &picture->receivers, error);
+  if (result == SLAB_OK)
+    result = gl_surfaces_create(&picture->receivers, &picture->surfaces, error);
+  if (result == SLAB_OK) result = gl_show_resize(&picture->show, &picture->receivers, error);
+  if (result == SLAB_OK) result = view_lamps_create(width, height, &picture->lamps, error);
+  return result;
+}
+
+bool view_picture_move(struct view_picture *picture, int light, const double matrix[4][3]) {
+  struct light *lights = picture->world->lights;
+  int number = 0;
+  if (!light_move(&lights[light], matrix)) return false;
+  for (int l = 0; l < light; ++l) number += lights[l].count;
+  for (int k = 0; k < lights[light].count; ++k)
+    levels_move(&picture->world->aids->levels[number + k], &lights[light].pages[k]);
+  gl_sum_moved(&picture->sum, light);
+  count_views(picture);
+  return true;
+}
+
+void view_picture_start(struct view_picture *picture, const struct camera *camera) {
+  const struct view_world *world = picture->world;
+  bool seen = picture->lamps.any;
+  picture->camera = *camera;
+  picture->done = picture->kept = 0;
+  picture->change = INFINITY;
+  gl_raster_draw(&picture->raster, camera, picture->sum.origin, world->background,
+                 &picture->receivers, &picture->surfaces);
+  gl_sum_clear(&picture->receivers);
+  view_lamps_look(&picture->lamps, world->lights, world->light_count, camera, world->threads);
+  if (seen || picture->lamps.any) gl_show_set_lamps(&picture->show, picture->lamps.pixels[0]);
+}
+
+/* Compares the picture with one of half as many views, whenever their number has doubled. */
+static void tell_change(struct view_picture *picture) {
+  if (picture->done < 1 && picture->done < 2 * picture->kept) return;
+  if (picture->kept > 0) picture->change = gl_show_change(&picture->show);
+  gl_show_keep(&picture->show);
+  picture->kept = picture->done;
+}
+
+enum slab_result view_picture_add(struct view_picture *picture, double share,
+                                  struct slab_error *error) {
+  double from[3], to = fmin(picture->done + share, 1);
+  enum slab_result result = gl_sum_add(&picture->sum, &picture->receivers, picture->done, to,
+                                       picture->raster.glossy, error);
+  if (result != SLAB_OK) return result;
+  picture->done = to;
+  vector_subtract(picture->camera.from, picture->sum.origin, from);
+  gl_show_draw(&picture->show, &picture->receivers, &picture->surfaces, picture->sum.unit / to,
+               from);
+  tell_change(picture);
+  return SLAB_OK;
+}

@@ -1,0 +1,67 @@
+/* view_picture.h - the picture that the viewer shows: surfaces drawn, and views of the lights
+ * added until all are in. Needs a current context, until it is freed; no window. */
+#ifndef VIEW_PICTURE_H
+#define VIEW_PICTURE_H
+
+#include "gather.h"
+#include "gl_show.h"
+#include "view_lamps.h"
+
+/* How the light is summed. */
+struct view_sum {
+  int level; /* of the hierarchy */
+  bool shadows;
+  int groups; /* of shadow maps along an axis; 0: one for each view */
+};
+
+struct view_world {
+  const struct scene *scene;
+  struct light *lights;
+  int light_count;
+  struct gather_aids *aids; /* of method gl */
+  double background[3];
+  int map_size; /* of shadow maps */
+  int threads;
+};
+
+struct view_picture {
+  const struct view_world *world;
+  double low[3], high[3]; /* of the scene */
+  struct camera camera;
+  struct gl_raster raster;
+  struct gl_receivers receivers;
+  struct gl_surfaces surfaces;
+  struct gl_show show;
+  struct view_lamps lamps;
+  struct gl_sum sum;
+  int64_t views;         /* of all pages, without black ones */
+  int64_t black, behind; /* views that are skipped: black ones, and those of pages that have
+                            nothing in front of them */
+  double done;           /* share of the views that are in */
+  double kept;           /* share of the picture that `change` compares with */
+  double change;         /* relative RMS, since about half as many views; INFINITY: not known */
+};
+
+/* The world outlives the picture. Sizes are those of the frame buffer. */
+enum slab_result view_picture_create(const struct view_world *world, const struct view_sum *how,
+                                     int width, int height, struct view_picture *picture,
+                                     struct slab_error *error);
+void view_picture_free(struct view_picture *picture); /* zeroed picture allowed */
+
+/* After these, view_picture_start is due. */
+enum slab_result view_picture_set_sum(struct view_picture *picture, const struct view_sum *how,
+                                      struct slab_error *error);
+enum slab_result view_picture_resize(struct view_picture *picture, int width, int height,
+                                     struct slab_error *error);
+
+/* Puts a light elsewhere, as light_move. */
+bool view_picture_move(struct view_picture *picture, int light, const double matrix[4][3]);
+
+/* Draws the surfaces as the camera sees them, without light. */
+void view_picture_start(struct view_picture *picture, const struct camera *camera);
+
+/* Adds so large a share of the views, up to all; the picture shows the estimate of the whole. */
+enum slab_result view_picture_add(struct view_picture *picture, double share,
+                                  struct slab_error *error);
+
+#endif
