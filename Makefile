@@ -36,7 +36,7 @@ PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/null))$(PKG_LIBS)
 # What only renderslab uses. Embree 3 has no pkg-config file.
-RENDER_USED := assimp libpng epoxy egl
+RENDER_USED := assimp libpng epoxy egl glfw3
 RENDER_CFLAGS = $(eval RENDER_CFLAGS := -Irender $(shell pkg-config --cflags $(RENDER_USED) 2>/dev/null))$(RENDER_CFLAGS)
 RENDER_LIBS = $(eval RENDER_LIBS := -lembree3 $(shell pkg-config --libs $(RENDER_USED) 2>/dev/null))$(RENDER_LIBS)
 
@@ -56,13 +56,13 @@ quote = '$(subst ','\'',$(1))'
 # ---- Set-up: the Debian packages that the goals on the command line need.
 PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc) libc6-dev make pkg-config \
   libtiff-dev libopenexr-dev libjansson-dev libxxhash-dev \
-  libembree-dev libassimp-dev libpng-dev libepoxy-dev libegl-dev
+  libembree-dev libassimp-dev libpng-dev libepoxy-dev libegl-dev libglfw3-dev
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
 PACKAGES_lamps := povray povray-includes jq
 PACKAGES_man  := help2man scdoc
 PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_lamps) $(PACKAGES_man) libcmocka-dev libgmp-dev bats bubblewrap \
-  povray-examples libtiff-tools groff chromium
+  povray-examples libtiff-tools groff chromium xvfb xauth xdotool
 PACKAGES_fuzz := clang libclang-rt-14-dev
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
@@ -110,7 +110,7 @@ ifneq ($(SETUP),no)
 	      </dev/null >$$log 2>&1 || { tail -n 20 $$log; echo "make setup: apt could not install$$missing" >&2; exit 1; }; \
 	  fi; \
 	elif ! pkg-config --exists $(PACKAGES_USED) $(RENDER_USED) 2>/dev/null; then \
-	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, Embree 3, assimp, libpng, POV-Ray 3.7 and oiiotool (make lamps: jq; tests: cmocka, GMP, bats, gnuplot, help2man, scdoc, tiffcp, groff, chromium) by other means' >&2; exit 1; \
+	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, Embree 3, assimp, libpng, GLFW, POV-Ray 3.7 and oiiotool (make lamps: jq; tests: cmocka, GMP, bats, gnuplot, help2man, scdoc, tiffcp, groff, chromium, Xvfb, xdotool) by other means' >&2; exit 1; \
 	fi
 endif
 

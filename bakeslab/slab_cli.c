@@ -93,6 +93,12 @@ static char *append_word(char *out, const char *word) {
   return out;
 }
 
+char *cli_quote(const char *word) {
+  char *quoted = malloc(4 * strlen(word) + 3);
+  if (quoted) append_word(quoted, word);
+  return quoted;
+}
+
 bool cli_set_command_line(const char *program, int argc, char **argv) {
   size_t room = strlen(program) + 1;
   for (int k = 1; k < argc; ++k) room += 4 * strlen(argv[k]) + 3;

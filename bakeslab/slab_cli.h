@@ -72,6 +72,9 @@ const char *cli_command_line(void);
  * looked at. */
 bool cli_set_command_line(const char *program, int argc, char **argv);
 
+/* A word, quoted for a shell where it must be; to be freed. NULL without memory. */
+char *cli_quote(const char *word);
+
 /* Flushes stdout and says whether all that was printed got there: a full disk
  * or a closed pipe is an error. Returns an exit status. */
 int cli_close_stdout(void);

@@ -31,7 +31,6 @@ enum slab_result gl_receivers_create(int width, int height, const struct gl_limi
   glBindFramebuffer(GL_FRAMEBUFFER, receivers->target);
   glFramebufferTexture(GL_FRAMEBUFFER, both[0], receivers->irradiance, 0);
   glFramebufferTexture(GL_FRAMEBUFFER, both[1], receivers->gloss, 0);
-  glDrawBuffers(2, both);
   if (result == SLAB_OK && glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     result = gl_fail(error, SLAB_IO, "the driver cannot draw a picture of %d x %d floats", width,
                      height);

@@ -33,8 +33,8 @@ enum slab_result gl_show_create(struct gl_show *show, struct slab_error *error) 
 }
 
 static void free_pictures(struct gl_show *show) {
-  const unsigned textures[] = {show->radiance, show->before, show->lamps, show->words};
-  glDeleteTextures(4, textures);
+  const unsigned textures[] = {show->radiance, show->before, show->full, show->lamps, show->words};
+  glDeleteTextures(5, textures);
   glDeleteFramebuffers(1, &show->target);
 }
 
@@ -57,6 +57,7 @@ enum slab_result gl_show_resize(struct gl_show *show, const struct gl_receivers 
   show->width = receivers->width;
   show->height = receivers->height;
   show->before = gl_receivers_texture(show->width, show->height);
+  show->full = gl_receivers_texture(show->width, show->height);
   show->lamps = gl_receivers_texture(show->width, show->height);
   show->radiance = gl_receivers_texture(show->width, show->height);
   show->target = make_target(show->lamps);
@@ -103,11 +104,11 @@ void gl_show_draw(const struct gl_show *show, const struct gl_receivers *receive
   fill(show, show->draw, show->target, show->width, show->height);
 }
 
-double gl_show_change(const struct gl_show *show) {
+double gl_show_change(const struct gl_show *show, unsigned earlier) {
   float squares[SIDE * SIDE][2];
   double step[2] = {show->width / (double)SIDE, show->height / (double)SIDE}, sum[2] = {0};
   gl_set_texture(show->compare, "radiance", 0, GL_TEXTURE_2D, show->radiance);
-  gl_set_texture(show->compare, "before", 1, GL_TEXTURE_2D, show->before);
+  gl_set_texture(show->compare, "earlier", 1, GL_TEXTURE_2D, earlier);
   gl_set_floats(show->compare, "step", 2, step);
   fill(show, show->compare, show->few, SIDE, SIDE);
   glReadPixels(0, 0, SIDE, SIDE, GL_RG, GL_FLOAT, squares);
@@ -116,9 +117,9 @@ double gl_show_change(const struct gl_show *show) {
   return sum[0] > 0 ? sqrt(sum[1] / sum[0]) : 0;
 }
 
-void gl_show_keep(const struct gl_show *show) {
-  glCopyImageSubData(show->radiance, GL_TEXTURE_2D, 0, 0, 0, 0, show->before, GL_TEXTURE_2D, 0, 0,
-                     0, 0, show->width, show->height, 1);
+void gl_show_keep(const struct gl_show *show, unsigned earlier) {
+  glCopyImageSubData(show->radiance, GL_TEXTURE_2D, 0, 0, 0, 0, earlier, GL_TEXTURE_2D, 0, 0, 0, 0,
+                     show->width, show->height, 1);
 }
 
 enum slab_result gl_show_read(const struct gl_show *show, struct slab_picture *picture,
@@ -138,7 +139,8 @@ enum slab_result gl_show_read(const struct gl_show *show, struct slab_picture *p
   return result;
 }
 
-void gl_show_screen(const struct gl_show *show, double white, const unsigned char *words) {
+void gl_show_screen(const struct gl_show *show, double white, const unsigned char *words,
+                    unsigned target) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, show->words);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, show->width, show->height, GL_RED, GL_UNSIGNED_BYTE,
@@ -146,5 +148,5 @@ void gl_show_screen(const struct gl_show *show, double white, const unsigned cha
   gl_set_texture(show->shown, "radiance", 0, GL_TEXTURE_2D, show->radiance);
   gl_set_texture(show->shown, "words", 1, GL_TEXTURE_2D, show->words);
   gl_set_floats(show->shown, "white", 1, &white);
-  fill(show, show->shown, 0, show->width, show->height);
+  fill(show, show->shown, target, show->width, show->height);
 }

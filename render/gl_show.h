@@ -8,7 +8,7 @@
 struct gl_show {
   int width, height;
   unsigned radiance, target;     /* the picture; row 0 is the bottom one */
-  unsigned before;               /* an earlier one */
+  unsigned before, full;         /* earlier ones */
   unsigned lamps;                /* radiance of lamps that are seen, and their distance; 0: none */
   unsigned words;                /* of the screen: one byte a pixel, row 0 at the top */
   unsigned samples, few;         /* of the change, and their frame buffer */
@@ -31,17 +31,18 @@ void gl_show_set_lamps(struct gl_show *show, const float *pixels);
 void gl_show_draw(const struct gl_show *show, const struct gl_receivers *receivers,
                   const struct gl_surfaces *surfaces, double unit, const double from[3]);
 
-/* Relative RMS of what has changed since gl_show_keep, by 64 x 64 of the picture's pixels; 0
- * where the picture is black. */
-double gl_show_change(const struct gl_show *show);
-void gl_show_keep(const struct gl_show *show);
+/* Copies the picture to `before` or `full`; relative RMS of its difference from one of these, by
+ * 64 x 64 of the pixels, 0 where that is black. */
+void gl_show_keep(const struct gl_show *show, unsigned earlier);
+double gl_show_change(const struct gl_show *show, unsigned earlier);
 
 /* The picture, row 0 at the top, without errors; to be freed with slab_picture_free. */
 enum slab_result gl_show_read(const struct gl_show *show, struct slab_picture *picture,
                               struct slab_error *error);
 
-/* Puts the picture on the window's frame buffer: radiance `white` as white, by the curve of
- * sRGB, with words over it: width x height bytes, 0 nothing, 1 dim, 255 a letter. */
-void gl_show_screen(const struct gl_show *show, double white, const unsigned char *words);
+/* Puts the picture on a frame buffer (0: the window's): radiance `white` as white, by the curve
+ * of sRGB, with words over it: width x height bytes, 0 nothing, 1 dim, 255 a letter. */
+void gl_show_screen(const struct gl_show *show, double white, const unsigned char *words,
+                    unsigned target);
 
 #endif

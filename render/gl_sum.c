@@ -102,9 +102,15 @@ void gl_sum_free(struct gl_sum *sum) {
   *sum = (struct gl_sum){0};
 }
 
+static void choose_buffers(const struct gl_receivers *receivers, bool gloss) {
+  static const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glBindFramebuffer(GL_FRAMEBUFFER, receivers->target);
+  glDrawBuffers(gloss ? 2 : 1, both);
+}
+
 void gl_sum_clear(const struct gl_receivers *receivers) {
   static const float nothing[4] = {0};
-  glBindFramebuffer(GL_FRAMEBUFFER, receivers->target);
+  choose_buffers(receivers, true);
   glClearBufferfv(GL_COLOR, 0, nothing);
   glClearBufferfv(GL_COLOR, 1, nothing);
 }
@@ -219,6 +225,7 @@ enum slab_result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *recei
   unsigned program;
   enum slab_result result = choose(sum, gloss, &program, error);
   if (result != SLAB_OK) return result;
+  choose_buffers(receivers, gloss);
   set_receivers(receivers, program);
   for (int page = 0; page < sum->pages; ++page) {
     const struct gl_slides *slides = &sum->slides[page];

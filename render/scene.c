@@ -126,6 +126,17 @@ enum slab_result scene_load(const char *path, enum scene_needs needs, bool repai
   return result;
 }
 
+void scene_box(const struct scene *scene, double low[3], double high[3]) {
+  for (int c = 0; c < 3; ++c) {
+    low[c] = INFINITY;
+    high[c] = -INFINITY;
+    for (size_t k = 0; k < scene->vertices; ++k) {
+      low[c] = fmin(low[c], scene->position[k][c]);
+      high[c] = fmax(high[c], scene->position[k][c]);
+    }
+  }
+}
+
 static void share_weights(const double share[2], double weights[3]) {
   weights[0] = 1 - share[0] - share[1];
   weights[1] = share[0];

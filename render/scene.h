@@ -69,6 +69,9 @@ enum slab_result scene_load(const char *path, enum scene_needs needs, bool repai
                             struct scene *scene, char note[256], struct slab_error *error);
 void scene_free(struct scene *scene); /* zeroed scene allowed */
 
+/* The box around all vertices. */
+void scene_box(const struct scene *scene, double low[3], double high[3]);
+
 /* The diffuse reflectance of a point of a triangle: the material's, times its texture
  * (bilinear, repeated) at barycentric `share`. */
 void scene_diffuse(const struct scene *scene, size_t triangle, const double share[2],

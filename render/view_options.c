@@ -38,7 +38,7 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     return 0;
   case ARGP_KEY_SUCCESS:
     if (!options->mesh) argp_error(state, "no mesh given");
-    if (!options->camera_given)
+    if (!options->camera_given && !options->camera_optional)
       argp_error(state, "no camera given; add --camera 'from=X,Y,Z at=X,Y,Z'");
     return 0;
   default:

@@ -10,7 +10,7 @@
 
 struct view_options {
   const char *mesh;
-  bool camera_given;
+  bool camera_given, camera_optional; /* the second is set beforehand */
   struct camera camera;
   int size[2]; /* 640 x 480 */
   bool size_given;

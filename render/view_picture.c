@@ -7,23 +7,12 @@
 
 #include "vector.h"
 
-static void find_box(const struct scene *scene, double low[3], double high[3]) {
-  for (int c = 0; c < 3; ++c) {
-    low[c] = INFINITY;
-    high[c] = -INFINITY;
-    for (size_t k = 0; k < scene->vertices; ++k) {
-      low[c] = fmin(low[c], scene->position[k][c]);
-      high[c] = fmax(high[c], scene->position[k][c]);
-    }
-  }
-}
-
 enum slab_result view_picture_create(const struct view_world *world, const struct view_sum *how,
                                      int width, int height, struct view_picture *picture,
                                      struct slab_error *error) {
   struct gl_limits limits;
   *picture = (struct view_picture){.world = world};
-  find_box(world->scene, picture->low, picture->high);
+  scene_box(world->scene, picture->low, picture->high);
   enum slab_result result = gl_context_check(&limits, error);
   if (result == SLAB_OK) result = gl_raster_create(world->scene, &limits, &picture->raster, error);
   if (result == SLAB_OK) result = gl_show_create(&picture->show, error);
@@ -78,6 +67,9 @@ enum slab_result view_picture_set_sum(struct view_picture *picture, const struct
                                      .occluders = how->shadows ? world->scene : NULL,
                                      .map_size = world->map_size,
                                      .groups = how->groups};
+  picture->full =
+      picture->full && how->shadows == picture->how.shadows && how->groups == picture->how.groups;
+  picture->how = *how;
   gl_sum_free(&picture->sum);
   enum slab_result result = gl_sum_create(&settings, &picture->sum, error);
   if (result == SLAB_OK) count_views(picture);
@@ -86,6 +78,7 @@ enum slab_result view_picture_set_sum(struct view_picture *picture, const struct
 
 enum slab_result view_picture_resize(struct view_picture *picture, int width, int height,
                                      struct slab_error *error) {
+  picture->full = false;
   free_receivers(picture);
   enum slab_result result =
       gl_receivers_create(width, height, &picture->sum.limits, &picture->receivers, error);
@@ -104,6 +97,7 @@ bool view_picture_move(struct view_picture *picture, int light, const double mat
   for (int k = 0; k < lights[light].count; ++k)
     levels_move(&picture->world->aids->levels[number + k], &lights[light].pages[k]);
   gl_sum_moved(&picture->sum, light);
+  picture->full = false;
   count_views(picture);
   return true;
 }
@@ -111,9 +105,10 @@ bool view_picture_move(struct view_picture *picture, int light, const double mat
 void view_picture_start(struct view_picture *picture, const struct camera *camera) {
   const struct view_world *world = picture->world;
   bool seen = picture->lamps.any;
+  picture->full = picture->full && !memcmp(camera, &picture->camera, sizeof *camera);
   picture->camera = *camera;
   picture->done = picture->kept = 0;
-  picture->change = INFINITY;
+  picture->change = picture->error = INFINITY;
   gl_raster_draw(&picture->raster, camera, picture->sum.origin, world->background,
                  &picture->receivers, &picture->surfaces);
   gl_sum_clear(&picture->receivers);
@@ -121,11 +116,18 @@ void view_picture_start(struct view_picture *picture, const struct camera *camer
   if (seen || picture->lamps.any) gl_show_set_lamps(&picture->show, picture->lamps.pixels[0]);
 }
 
-/* Compares the picture with one of half as many views, whenever their number has doubled. */
+/* Compares the picture with one of half as many views, whenever their number has doubled, and
+ * with that of all views. */
 static void tell_change(struct view_picture *picture) {
+  const struct gl_show *show = &picture->show;
   if (picture->done < 1 && picture->done < 2 * picture->kept) return;
-  if (picture->kept > 0) picture->change = gl_show_change(&picture->show);
-  gl_show_keep(&picture->show);
+  if (picture->done >= 1 && picture->how.level == 0) {
+    gl_show_keep(show, show->full);
+    picture->full = true;
+  }
+  if (picture->kept > 0) picture->change = gl_show_change(show, show->before);
+  if (picture->full) picture->error = gl_show_change(show, show->full);
+  gl_show_keep(show, show->before);
   picture->kept = picture->done;
 }
 

@@ -40,6 +40,9 @@ struct view_picture {
   double done;           /* share of the views that are in */
   double kept;           /* share of the picture that `change` compares with */
   double change;         /* relative RMS, since about half as many views; INFINITY: not known */
+  struct view_sum how;
+  bool full;    /* all views of level 0 have been seen, with all else as it is */
+  double error; /* relative RMS against that, last told with `change`; INFINITY: not known */
 };
 
 /* The world outlives the picture. Sizes are those of the frame buffer. */

@@ -1,6 +1,6 @@
-// Squares of the picture and of its change, at some of its pixels.
+// Squares of an earlier picture and of the change since, at some of the pixels.
 
-uniform sampler2D radiance, before;
+uniform sampler2D radiance, earlier;
 uniform vec2 step;  // from one of them to the next
 
 layout(location = 0) out vec2 squares;
@@ -8,6 +8,6 @@ layout(location = 0) out vec2 squares;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy*step);
   vec3 now = texelFetch(radiance, pixel, 0).rgb;
-  vec3 change = now - texelFetch(before, pixel, 0).rgb;
-  squares = vec2(dot(now, now), dot(change, change));
+  vec3 then = texelFetch(earlier, pixel, 0).rgb, change = now - then;
+  squares = vec2(dot(then, then), dot(change, change));
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <epoxy/gl.h>
 
 #include "image.h"
 #include "light.h"
@@ -277,12 +278,14 @@ static void a_part_estimates_the_whole(void **state) {
     view_picture_start(&picture, &camera);
     assert_int_equal(view_picture_add(&picture, 0.5 / share, &error), SLAB_OK);
     assert_int_equal(view_picture_add(&picture, 0.5 / share, &error), SLAB_OK);
-    double change = picture.change;
+    double change = picture.change, error_told = picture.error;
     assert_int_equal(gl_show_read(&picture.show, &part, &error), SLAB_OK);
     full = take(&picture, 1);
     double off_by = differ(&part, &full, INFINITY, &off);
-    print_message("# 1/%d of the views: %.3f off, told %.3f\n", share, off_by, change);
+    print_message("# 1/%d of the views: %.3f off, told %.3f and %.3f\n", share, off_by, change,
+                  error_told);
     assert_true(off_by < 0.5 && change < 4 * off_by && change > off_by / 4);
+    assert_true(share == 16 ? isinf(error_told) : fabs(error_told / off_by - 1) < 0.2);
     slab_picture_free(&part);
     slab_picture_free(&full);
   }
@@ -340,11 +343,43 @@ static void pages_behind_are_skipped(void **state) {
   view_picture_free(&picture);
 }
 
+/* Upright, by the curve of sRGB, with words where they were written. */
+static void is_put_on_the_screen(void **state) {
+  (void)state;
+  static unsigned char words[WIDTH * HEIGHT];
+  static float pixels[HEIGHT][WIDTH][4];
+  const double white = 0.3;
+  struct view_picture picture;
+  unsigned target, texture;
+  make_picture(&whole, &picture);
+  struct slab_picture linear = take(&picture, 1);
+  texture = gl_receivers_texture(WIDTH, HEIGHT);
+  glGenFramebuffers(1, &target);
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
+  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0);
+  words[3 * WIDTH + 5] = 255;
+  words[4 * WIDTH + 5] = 1;
+  gl_show_screen(&picture.show, white, words, target);
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
+  glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_FLOAT, pixels);
+  for (int k = 0; k < WIDTH * HEIGHT; ++k)
+    for (int c = 0; c < 3; ++c) {
+      double x = fmin((double)linear.rgb[3 * k + c] / white, 1);
+      double srgb = x > 0.0031308 ? 1.055 * pow(x, 1 / 2.4) - 0.055 : 12.92 * x;
+      if (words[k]) srgb = words[k] == 255 ? 1 : 0.4 * srgb;
+      assert_true(fabs((double)pixels[HEIGHT - 1 - k / WIDTH][k % WIDTH][c] - srgb) < 1e-3);
+    }
+  slab_picture_free(&linear);
+  glDeleteFramebuffers(1, &target);
+  glDeleteTextures(1, &texture);
+  view_picture_free(&picture);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(shows_what_camera_rays_see), cmocka_unit_test(all_shares_are_the_whole),
       cmocka_unit_test(a_part_estimates_the_whole), cmocka_unit_test(lights_move),
-      cmocka_unit_test(pages_behind_are_skipped),
+      cmocka_unit_test(pages_behind_are_skipped),   cmocka_unit_test(is_put_on_the_screen),
   };
   return cmocka_run_group_tests(tests, make_all, free_all);
 }

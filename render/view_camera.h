@@ -1,0 +1,26 @@
+/* view_camera.h - moving a camera around what it looks at. Angles in radians. */
+#ifndef VIEW_CAMERA_H
+#define VIEW_CAMERA_H
+
+#include "camera.h"
+#include "scene.h"
+
+/* One that sees the whole scene from its front, a little from above. */
+struct camera view_camera_outside(const struct scene *scene);
+
+/* The distance of what it looks at. */
+double view_camera_distance(const struct camera *camera);
+
+/* Turns around that, to its own right and upwards, as far as `up` allows. */
+void view_camera_orbit(struct camera *camera, double right, double up);
+
+/* Moves to its own right and upwards, in lengths. */
+void view_camera_pan(struct camera *camera, double right, double up);
+
+/* Multiplies the distance. */
+void view_camera_zoom(struct camera *camera, double factor);
+
+/* Turns a vector in the plane of two unit vectors that are perpendicular, from p towards q. */
+void view_camera_turn(double vector[3], const double p[3], const double q[3], double angle);
+
+#endif

@@ -1,0 +1,211 @@
+/* view_loop.c - see view_loop.h. */
+#include "view_loop.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "preview.h"
+#include "slab_cli.h"
+#include "slab_progress.h"
+#include "view_status.h"
+#include "view_window.h"
+
+/* Seconds that a frame may take to add views: the first after something has moved, and later
+ * ones; how many views the very first one adds. */
+static const double moving = 0.05, still = 0.1, first_views = 8;
+
+struct view_loop {
+  const struct view_arguments *arguments;
+  const char *keys; /* that are left; NULL: none */
+  struct view_state state;
+  struct view_sum sum; /* that the picture is made by */
+  struct view_window *window;
+  struct view_picture picture;
+  struct view_text text;
+  bool due;       /* the picture is not what the state asks for */
+  double share;   /* of the views that a frame adds */
+  double seconds; /* of the last frame */
+  double white;
+  bool unsaved; /* a picture could not be saved */
+  char news[sizeof(struct slab_error) + 32];
+};
+
+static bool same_sum(const struct view_sum *a, const struct view_sum *b) {
+  return a->level == b->level && a->shadows == b->shadows && a->groups == b->groups;
+}
+
+static void set_share(struct view_loop *loop, double share) {
+  double least = 1 / fmax((double)loop->picture.views, 1);
+  loop->share = fmin(fmax(share, least), 1);
+}
+
+static enum slab_result follow_window(struct view_loop *loop, struct slab_error *error) {
+  int size[2];
+  view_window_size(loop->window, size);
+  if (size[0] < 1 || size[1] < 1) return SLAB_OK;
+  if (size[0] == loop->text.width && size[1] == loop->text.height) return SLAB_OK;
+  loop->due = true;
+  view_text_free(&loop->text);
+  enum slab_result result = view_text_create(size[0], size[1], &loop->text, error);
+  if (result == SLAB_OK) result = view_picture_resize(&loop->picture, size[0], size[1], error);
+  return result;
+}
+
+static void follow_lights(struct view_loop *loop) {
+  for (int k = 0; k < loop->state.light_count; ++k) {
+    struct view_light *light = &loop->state.lights[k];
+    const struct light *there = &loop->arguments->world->lights[k];
+    if (!memcmp(light->matrix, there->matrix, sizeof light->matrix)) continue;
+    if (!view_picture_move(&loop->picture, k, light->matrix))
+      memcpy(light->matrix, there->matrix, sizeof light->matrix);
+    loop->due = true;
+  }
+}
+
+/* Does what the state asks for. */
+static enum slab_result follow(struct view_loop *loop, struct slab_error *error) {
+  enum slab_result result = follow_window(loop, error);
+  if (result != SLAB_OK) return result;
+  follow_lights(loop);
+  if (!same_sum(&loop->sum, &loop->state.sum)) {
+    double views = loop->share * (double)loop->picture.views;
+    result = view_picture_set_sum(&loop->picture, &loop->state.sum, error);
+    if (result != SLAB_OK) return result;
+    loop->sum = loop->state.sum;
+    set_share(loop, views / fmax((double)loop->picture.views, 1));
+    loop->due = true;
+  }
+  if (memcmp(&loop->picture.camera, &loop->state.camera, sizeof loop->state.camera) != 0)
+    loop->due = true;
+  if (loop->due) view_picture_start(&loop->picture, &loop->state.camera);
+  loop->due = false;
+  return SLAB_OK;
+}
+
+/* As many views as the time of a frame allows; the next time more or fewer. All at once for
+ * keys that wait for them. */
+static enum slab_result refine(struct view_loop *loop, struct slab_error *error) {
+  if (loop->picture.done >= 1) return SLAB_OK;
+  if (loop->keys) return view_picture_add(&loop->picture, 1, error);
+  double start = progress_now(), budget = loop->picture.done > 0 ? still : moving;
+  enum slab_result result = view_picture_add(&loop->picture, loop->share, error);
+  glFinish();
+  double factor = budget / fmax(progress_now() - start, 1e-6);
+  set_share(loop, loop->share * fmin(fmax(factor, 0.25), 4));
+  return result;
+}
+
+/* By the picture, roughly at first and for good once it is complete. */
+static enum slab_result expose(struct view_loop *loop, struct slab_error *error) {
+  struct slab_picture picture;
+  if (loop->state.exposure > 0) loop->white = loop->state.exposure;
+  if (loop->state.exposure > 0 || (loop->white > 0 && loop->picture.done < 1)) return SLAB_OK;
+  enum slab_result result = gl_show_read(&loop->picture.show, &picture, error);
+  if (result != SLAB_OK) return result;
+  result = preview_exposure(&picture, &loop->white, error);
+  slab_picture_free(&picture);
+  if (loop->picture.done >= 1) loop->state.exposure = loop->white;
+  return result;
+}
+
+static enum slab_result save(struct view_loop *loop, struct slab_error *error) {
+  char path[32];
+  int number = 1;
+  do snprintf(path, sizeof path, "view-%d.exr", number++);
+  while (access(path, F_OK) == 0);
+  struct slab_picture picture;
+  enum slab_result result = gl_show_read(&loop->picture.show, &picture, error);
+  if (result != SLAB_OK) return result;
+  char *command = view_command(loop->arguments, &loop->state, picture.width, picture.height, path);
+  if (command)
+    result = slab_exr_write(path, &picture, 0, command, error);
+  else
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (result == SLAB_OK) {
+    printf("%s\n", command);
+    fflush(stdout);
+    snprintf(loop->news, sizeof loop->news, "saved as %s", path);
+  }
+  free(command);
+  slab_picture_free(&picture);
+  return result;
+}
+
+static void save_if_asked(struct view_loop *loop) {
+  struct slab_error error;
+  if (!loop->state.save) return;
+  snprintf(loop->news, sizeof loop->news, "is saved once all views are in");
+  if (loop->picture.done < 1) return;
+  loop->state.save = false;
+  if (save(loop, &error) == SLAB_OK) return;
+  loop->unsaved = true;
+  cli_complain("%s", error.text);
+  snprintf(loop->news, sizeof loop->news, "not saved: %s", error.text);
+}
+
+static enum slab_result draw_frame(struct view_loop *loop, struct slab_error *error) {
+  double start = progress_now();
+  enum slab_result result = follow(loop, error);
+  if (result == SLAB_OK) result = refine(loop, error);
+  if (result == SLAB_OK) result = expose(loop, error);
+  if (result != SLAB_OK) return result;
+  save_if_asked(loop);
+  view_status_write(&loop->picture, &loop->state, loop->seconds, loop->white, loop->news,
+                    &loop->text);
+  gl_show_screen(&loop->picture.show, loop->white, loop->text.pixels, 0);
+  view_window_show(loop->window);
+  loop->seconds = progress_now() - start;
+  return gl_check("a frame", error);
+}
+
+/* The next of the keys, once the picture is complete. */
+static void press_key(struct view_loop *loop) {
+  int key;
+  bool shift;
+  if (!loop->keys || loop->picture.done < 1) return;
+  if (!view_key_read(&loop->keys, &key, &shift) || !key)
+    loop->keys = NULL;
+  else
+    view_state_key(&loop->state, key, shift);
+}
+
+static enum slab_result look(struct view_loop *loop, struct slab_error *error) {
+  enum slab_result result = SLAB_OK;
+  while (result == SLAB_OK && !loop->state.quit) {
+    result = draw_frame(loop, error);
+    view_window_events(loop->window, loop->picture.done >= 1 && !loop->keys);
+    press_key(loop);
+  }
+  if (result == SLAB_OK && loop->unsaved)
+    result = slab_fail(error, SLAB_IO, "not all pictures could be saved");
+  return result;
+}
+
+enum slab_result view_loop_run(const struct view_arguments *arguments, const struct camera *camera,
+                               int width, int height, const char *keys, struct slab_error *error) {
+  struct view_loop loop = {.arguments = arguments, .keys = keys, .due = true};
+  int size[2] = {0};
+  enum slab_result result = view_state_create(arguments->world, camera, &loop.state, error);
+  if (result == SLAB_OK)
+    result = view_window_create(width, height, &loop.state, &loop.window, error);
+  if (result == SLAB_OK) {
+    view_window_size(loop.window, size);
+    loop.sum = loop.state.sum;
+    result =
+        view_picture_create(arguments->world, &loop.sum, size[0], size[1], &loop.picture, error);
+  }
+  if (result == SLAB_OK) result = view_text_create(size[0], size[1], &loop.text, error);
+  if (result == SLAB_OK) {
+    set_share(&loop, first_views / fmax((double)loop.picture.views, 1));
+    result = look(&loop, error);
+  }
+  view_text_free(&loop.text);
+  if (loop.window) view_picture_free(&loop.picture);
+  view_window_free(loop.window);
+  view_state_free(&loop.state);
+  return result;
+}
