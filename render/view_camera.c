@@ -23,6 +23,13 @@ struct camera view_camera_outside(const struct scene *scene) {
   return camera;
 }
 
+bool view_camera_same(const struct camera *a, const struct camera *b) {
+  bool same = a->fov == b->fov;
+  for (int c = 0; c < 3; ++c)
+    same = same && a->from[c] == b->from[c] && a->at[c] == b->at[c] && a->up[c] == b->up[c];
+  return same;
+}
+
 double view_camera_distance(const struct camera *camera) {
   double offset[3];
   vector_subtract(camera->from, camera->at, offset);

@@ -8,6 +8,8 @@
 /* One that sees the whole scene from its front, a little from above. */
 struct camera view_camera_outside(const struct scene *scene);
 
+bool view_camera_same(const struct camera *a, const struct camera *b);
+
 /* The distance of what it looks at. */
 double view_camera_distance(const struct camera *camera);
 

@@ -4,7 +4,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "slab_cli.h"
 
@@ -62,7 +61,7 @@ char *view_command(const struct view_arguments *arguments, const struct view_sta
   add_word(out, "%s", arguments->mesh);
   for (int k = 0; k < world->light_count; ++k) {
     const struct view_light *light = &state->lights[k];
-    bool moved = memcmp(light->matrix, light->first, sizeof light->matrix) != 0;
+    bool moved = !view_same_place(light->matrix, light->first);
     add_light(out, arguments->lights[k], &world->lights[k], moved);
   }
   add_camera(out, &state->camera);

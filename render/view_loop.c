@@ -11,6 +11,7 @@
 #include "preview.h"
 #include "slab_cli.h"
 #include "slab_progress.h"
+#include "view_camera.h"
 #include "view_status.h"
 #include "view_window.h"
 
@@ -59,7 +60,7 @@ static void follow_lights(struct view_loop *loop) {
   for (int k = 0; k < loop->state.light_count; ++k) {
     struct view_light *light = &loop->state.lights[k];
     const struct light *there = &loop->arguments->world->lights[k];
-    if (!memcmp(light->matrix, there->matrix, sizeof light->matrix)) continue;
+    if (view_same_place(light->matrix, there->matrix)) continue;
     if (!view_picture_move(&loop->picture, k, light->matrix))
       memcpy(light->matrix, there->matrix, sizeof light->matrix);
     loop->due = true;
@@ -79,8 +80,7 @@ static enum slab_result follow(struct view_loop *loop, struct slab_error *error)
     set_share(loop, views / fmax((double)loop->picture.views, 1));
     loop->due = true;
   }
-  if (memcmp(&loop->picture.camera, &loop->state.camera, sizeof loop->state.camera) != 0)
-    loop->due = true;
+  if (!view_camera_same(&loop->picture.camera, &loop->state.camera)) loop->due = true;
   if (loop->due) view_picture_start(&loop->picture, &loop->state.camera);
   loop->due = false;
   return SLAB_OK;

@@ -3,9 +3,9 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
-#include <string.h>
 
 #include "vector.h"
+#include "view_camera.h"
 
 enum slab_result view_picture_create(const struct view_world *world, const struct view_sum *how,
                                      int width, int height, struct view_picture *picture,
@@ -105,7 +105,7 @@ bool view_picture_move(struct view_picture *picture, int light, const double mat
 void view_picture_start(struct view_picture *picture, const struct camera *camera) {
   const struct view_world *world = picture->world;
   bool seen = picture->lamps.any;
-  picture->full = picture->full && !memcmp(camera, &picture->camera, sizeof *camera);
+  picture->full = picture->full && view_camera_same(camera, &picture->camera);
   picture->camera = *camera;
   picture->done = picture->kept = 0;
   picture->change = picture->error = INFINITY;

@@ -42,6 +42,13 @@ void view_state_free(struct view_state *state) {
   *state = (struct view_state){0};
 }
 
+bool view_same_place(const double a[4][3], const double b[4][3]) {
+  for (int row = 0; row < 4; ++row)
+    for (int c = 0; c < 3; ++c)
+      if (a[row][c] != b[row][c]) return false;
+  return true;
+}
+
 /* What lights move along: level and to the right, level and away, and up. */
 static void level_axes(const struct camera *camera, double axes[3][3]) {
   double forward[3], above[3];

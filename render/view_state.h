@@ -42,6 +42,9 @@ enum slab_result view_state_create(const struct view_world *world, const struct 
                                    struct view_state *state, struct slab_error *error);
 void view_state_free(struct view_state *state); /* zeroed state allowed */
 
+/* Are two matrices the same? */
+bool view_same_place(const double a[4][3], const double b[4][3]);
+
 /* A key is pressed. Those that mean nothing change nothing. */
 void view_state_key(struct view_state *state, int key, bool shift);
 

@@ -70,11 +70,11 @@ made_again() {
 # As somebody at the keyboard: the keys come from the X server.
 press_keys() {
   "$RENDERSLAB" view gloss.obj --size 200x150 -q --light 'letter_f.tif at=0.3,1.2,0.1 gain=3' \
-    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' >command &
-  xdotool search --sync --name renderslab windowfocus --sync
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' >told &
+  until xdotool search --onlyvisible --name renderslab windowfocus; do sleep 0.1; done 2>/dev/null
   xdotool key Left key shift+Up key h key s
   for ((k = 0; k < 600; ++k)); do
-    [ -s command ] && break
+    [ -s told ] && break
     sleep 0.1
   done
   xdotool key q
@@ -84,8 +84,8 @@ press_keys() {
 @test "a window and its keyboard" {
   command -v xdotool >/dev/null || skip 'no xdotool'
   timeout 120 xvfb-run -a -s '-screen 0 800x600x24' bash -c "$(declare -f press_keys); press_keys"
-  [[ $(<command) != *from=0.3,2,-2.2* ]]
-  made_again "$(<command)"
+  [[ $(<told) != *from=0.3,2,-2.2* ]]
+  made_again "$(<told)"
 }
 
 @test "without display or OpenGL 4.3 one line says what is missing and what does without" {
