@@ -17,10 +17,10 @@ TEST_CHOSEN := $(filter $(T),$(TEST_LONG) $(filter-out $(TEST_LONG),$(TEST_NAMES
 TEST_LOGS := $(TEST_CHOSEN:%=$(B)/tests/%.log)
 
 TEST_ENV = BAKESLAB=$(abspath $(BAKE_BIN)) RENDERSLAB=$(abspath $(RENDER_BIN)) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
-  CONFIG=$(config) TEST_JOBS=$(TEST_JOBS) TEST_TIMEOUT=$(TEST_TIMEOUT) \
-  CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=allocator_may_return_null=1 LC_ALL=C.UTF-8
+  CONFIG=$(config) FAULTS=$(FAULTS) KILLS=$(KILLS) TEST_JOBS=$(TEST_JOBS) TEST_TIMEOUT=$(TEST_TIMEOUT) \
+  CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=suppressions=$(abspath tests/thread.supp) ASAN_OPTIONS=allocator_may_return_null=1 LC_ALL=C.UTF-8
 
-.PHONY: test bench lint sanitize
+.PHONY: test bench lint
 
 test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
@@ -72,9 +72,6 @@ stability: $(NUMERICS) ## sweep hard cases of the sums; CASE='ROW SEED' repeats 
 
 lint: $(B)/flags ## check formatting, static analysis and house rules
 	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh
-
-sanitize: ## run unit, command-line and renderer tests with address and undefined behaviour sanitizers
-	+@$(MAKE) --no-print-directory config=sanitize T='unit/% cli/% render/test_%' test
 
 $(TEST_SOURCES:%.c=$(B)/%.o) $(TEST_HELPERS:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests $(RENDER_CFLAGS)
 # The machine's rate of multiply-adds is that of fused ones.

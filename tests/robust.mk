@@ -42,6 +42,10 @@ $(B)/tests/faults/mutants: $(B)/tests/faults/mutants.o $(B)/libslab.a
 $(B)/tests/faults/mutants.log: $(B)/tests/faults/mutants FORCE
 	@$(TEST_ENV) sh tests/run.sh $@ $< 1 $(MUTANTS) $(sort $(wildcard tests/fuzz/seeds/tiff/* tests/fuzz/seeds/exr/*))
 
+# How many faults of a kind, and kills; `make sanitize` asks for more.
+FAULTS ?= 4
+KILLS ?= 10
+
 # Memory and disks that fail: a program that runs every command with each of FAULTS faults of
 # a kind, what it preloads, and a stand-in for POV-Ray.
 FAULTS_PROGRAMS := $(B)/tests/faults/faults $(B)/tests/faults/fake_povray $(B)/tests/faults/nomem.so
@@ -64,3 +68,19 @@ $(B)/tests/faults/bakeslab.log $(B)/tests/faults/renderslab.log: $(B)/tests/faul
 	@$(TEST_ENV) TOOLS=$(abspath $(B)/tests/faults) sh tests/run.sh $@ $< $*
 
 $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
+
+# All of it, at length: the tests under the address and undefined behaviour sanitizers, those of
+# threads under the thread sanitizer, the fuzzers, and more of every fault. Left out, since they
+# would take many minutes for code that runs in the others too: tests whose time is POV-Ray's
+# (chain, house, the bakes that find out by themselves) and numerics (`make stability`).
+SANITIZE_TESTS ?= unit/% cli/% render/% fuzz/% faults/% bake/depend bake/edges bake/refusals \
+  bake/resume bake/sandbox bake/test_store
+THREAD_TESTS ?= cli/slab render/test_tiles render/test_cut render/test_visible render/image
+
+.PHONY: sanitize
+sanitize: ## run the tests with sanitizers, the fuzzers, and many faults; tells how many
+	+@$(MAKE) --no-print-directory config=sanitize TEST_TIMEOUT=1800 T='$(SANITIZE_TESTS)' test
+	+@$(MAKE) --no-print-directory config=thread TEST_TIMEOUT=1800 T='$(THREAD_TESTS)' test
+	+@$(MAKE) --no-print-directory fuzz
+	+@$(MAKE) --no-print-directory MUTANTS=100000 FAULTS=100 KILLS=50 TEST_TIMEOUT=1800 T='faults/%' test
+	@sh tests/faults/figures.sh build/sanitize build/thread build/fuzz $(B)

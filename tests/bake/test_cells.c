@@ -33,7 +33,7 @@ static void pane_lamp(const char *name, const double rectangle[4], const char *r
 
 static int bake_all(void **state) {
   if (bakes_setup(state)) return -1;
-  char name[64], lamp[16];
+  char name[64], lamp[24];
   pane_lamp("pane", pane, "1");
   static const int rays[] = {2, 4, 16, 64, 256};
   for (int n = 0; n < 5; ++n) {

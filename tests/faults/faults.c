@@ -263,7 +263,10 @@ static int try_command(const struct faults_command *command, long most) {
     return 1;
   }
   setenv("FAULT_PROGRAM", strncmp(command->line, "bakeslab", 8) ? "renderslab" : "bakeslab", 1);
-  for (enum kind kind = MEMORY_ONCE; kind < KINDS; ++kind)
+  /* Sanitizers have an allocator of their own, which nothing may be preloaded before. */
+  const char *config = getenv("CONFIG");
+  bool own = config && (!strcmp(config, "sanitize") || !strcmp(config, "thread"));
+  for (enum kind kind = own ? DISK_ONCE : MEMORY_ONCE; kind < KINDS; ++kind)
     if (kind != CHILD_DISK || command->goes_on) failures += try_kind(command, kind, most, &whole);
   return failures;
 }

@@ -18,7 +18,7 @@ setup() {
 }
 
 # Becomes a bake of x.tif, so that a background job's process is it.
-bake() { exec "$BAKESLAB" bake "$lamp" --povray "$povray" "${size[@]}" --precision float --jobs 2 -q "$@"; }
+a_bake() { exec "$BAKESLAB" bake "$lamp" --povray "$povray" "${size[@]}" --precision float --jobs 2 -q "$@"; }
 
 same() { "$BAKESLAB" diff --tolerance 0 "$1" "$2" >/dev/null; }
 
@@ -36,11 +36,11 @@ nothing_half_done() {
 }
 
 @test "killed at random moments, a bake goes on to the same bits" {
-  (bake -o whole.tif)
+  (a_bake -o whole.tif)
   local killed=0 kills=${KILLS:-10} delay pid
   for ((k = 0; k < kills; ++k)); do
     delay=$(moment "$longest")
-    (bake -o x.tif) >log 2>&1 3>&- &
+    (a_bake -o x.tif) >log 2>&1 3>&- &
     pid=$!
     sleep "$delay"
     if kill -KILL "$pid" 2>/dev/null; then killed=$((killed + 1)); fi
@@ -48,7 +48,7 @@ nothing_half_done() {
     nothing_half_done || { echo "kill $k after $delay s"; return 1; }
     if [ -e x.tif ]; then rm x.tif; fi
   done
-  (bake -o x.tif)
+  (a_bake -o x.tif)
   same x.tif whole.tif
   [ ! -e x.tif.partial ]
   [ "$killed" -ge "$((kills / 4))" ]
@@ -56,10 +56,10 @@ nothing_half_done() {
 }
 
 @test "POV-Ray killed at random moments: told, and the next bake goes on" {
-  (bake -o whole.tif)
+  (a_bake -o whole.tif)
   local kills=$((${KILLS:-10} / 4 + 1)) pid victim status
   for ((k = 0; k < kills; ++k)); do
-    (bake -o x.tif) >log 2>&1 3>&- &
+    (a_bake -o x.tif) >log 2>&1 3>&- &
     pid=$!
     sleep "$(moment "$longest")"
     victim=$(pgrep -P "$pid" | head -n 1) || true
@@ -75,20 +75,20 @@ nothing_half_done() {
     nothing_half_done
     rm -f x.tif
   done
-  (bake -o x.tif)
+  (a_bake -o x.tif)
   same x.tif whole.tif
 }
 
 @test "two bakes of one output at once: one slab or the other" {
   local other=("${size[@]}") first second a b wins=0 turns=$((${KILLS:-10} / 2))
   other[1]=3
-  (bake -o a.tif)
-  (size=("${other[@]}") && bake -o b.tif)
+  (a_bake -o a.tif)
+  (size=("${other[@]}") && a_bake -o b.tif)
   for ((k = 0; k < turns; ++k)); do
-    (bake -o x.tif) >log.a 2>&1 3>&- &
+    (a_bake -o x.tif) >log.a 2>&1 3>&- &
     first=$!
     sleep "$(moment "$longest")"
-    (size=("${other[@]}") && bake -o x.tif) >log.b 2>&1 3>&- &
+    (size=("${other[@]}") && a_bake -o x.tif) >log.b 2>&1 3>&- &
     second=$!
     a=0 b=0
     wait "$first" || a=$?
@@ -106,7 +106,7 @@ nothing_half_done() {
 }
 
 @test "other writers of one output at once: one file or the other" {
-  (bake -o a.tif)
+  (a_bake -o a.tif)
   "$BAKESLAB" convert a.tif -o b.tif --uv 2 --precision float
   for _ in 1 2 3 4 5 6 7 8; do
     "$BAKESLAB" convert a.tif -o x.tif --precision float &
