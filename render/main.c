@@ -7,7 +7,7 @@ static const struct cli_command commands[] = {
     {"irradiance", cmd_irradiance, "irradiance of receivers read from stdin"},
     {"image", cmd_image, "picture of an OBJ, glTF or PLY scene"},
     {"pov", cmd_pov, "the same view as a POV-Ray scene"},
-    {"view", cmd_view, "the same in a window, to look around and move lights"},
+    {"view", cmd_view, "a scene in a window, to look around and move lights"},
     {"tradeoff", cmd_tradeoff, "what accuracy costs in time, for a scene"},
     {0}};
 

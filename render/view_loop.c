@@ -29,7 +29,7 @@ struct view_loop {
   struct view_text text;
   bool due;       /* the picture is not what the state asks for */
   double share;   /* of the views that a frame adds */
-  double seconds; /* of the last frame */
+  double seconds; /* of the last frame that added views */
   double white;
   bool unsaved; /* a picture could not be saved */
   char news[sizeof(struct slab_error) + 32];
@@ -150,6 +150,7 @@ static void save_if_asked(struct view_loop *loop) {
 static enum slab_result draw_frame(struct view_loop *loop, struct slab_error *error) {
   double start = progress_now();
   enum slab_result result = follow(loop, error);
+  bool complete = loop->picture.done >= 1;
   if (result == SLAB_OK) result = refine(loop, error);
   if (result == SLAB_OK) result = expose(loop, error);
   if (result != SLAB_OK) return result;
@@ -158,7 +159,7 @@ static enum slab_result draw_frame(struct view_loop *loop, struct slab_error *er
                     &loop->text);
   gl_show_screen(&loop->picture.show, loop->white, loop->text.pixels, 0);
   view_window_show(loop->window);
-  loop->seconds = progress_now() - start;
+  if (!complete) loop->seconds = progress_now() - start;
   return gl_check("a frame", error);
 }
 

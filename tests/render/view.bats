@@ -72,7 +72,8 @@ press_keys() {
   "$RENDERSLAB" view gloss.obj --size 200x150 -q --light 'letter_f.tif at=0.3,1.2,0.1 gain=3' \
     --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' >told &
   until xdotool search --onlyvisible --name renderslab windowfocus; do sleep 0.1; done 2>/dev/null
-  xdotool key Left key shift+Up key h key s
+  xdotool search --name renderslab windowsize 220 160
+  xdotool key Left key shift+Up key h mousemove 100 75 mousedown 1 mousemove 110 80 mouseup 1 key s
   for ((k = 0; k < 600; ++k)); do
     [ -s told ] && break
     sleep 0.1
@@ -81,10 +82,10 @@ press_keys() {
   wait $!
 }
 
-@test "a window and its keyboard" {
+@test "a window, its keyboard and its mouse" {
   command -v xdotool >/dev/null || skip 'no xdotool'
   timeout 120 xvfb-run -a -s '-screen 0 800x600x24' bash -c "$(declare -f press_keys); press_keys"
-  [[ $(<told) != *from=0.3,2,-2.2* ]]
+  [[ $(<told) != *from=0.3,2,-2.2* && $(<told) == *'--size 220x160'* ]]
   made_again "$(<told)"
 }
 
