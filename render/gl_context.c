@@ -86,11 +86,11 @@ enum slab_result gl_context_create(struct gl_context **context, struct slab_erro
   return result;
 }
 
+/* The display is not terminated: it is one for the whole process. */
 void gl_context_free(struct gl_context *context) {
   if (context && context->display != EGL_NO_DISPLAY) {
     eglMakeCurrent(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context->context != EGL_NO_CONTEXT) eglDestroyContext(context->display, context->context);
-    eglTerminate(context->display);
   }
   free(context);
 }
