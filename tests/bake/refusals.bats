@@ -137,5 +137,6 @@ setup() { bake_setup; }
   # A target whose centre is the bulb's: POV-Ray shoots 5.
   echo 'sphere { <0, 0, -0.5>, 0.2 pigment { rgbf 1 } interior { ior 1.5 } photons { target refraction on } }' >>lamp.pov
   refused 1 'caustics: POV-Ray shot' x.tif small lamp.pov -o x.tif
-  refused 1 'caustics: POV-Ray shot' x.tif small lamp.pov -o x.tif --effects all
+  # From an extended source they start beside its centre.
+  small lamp.pov -q -o x.tif --effects all
 }
