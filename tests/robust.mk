@@ -75,16 +75,13 @@ $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
 # (chain, house, the bakes that find out by themselves) and numerics (`make stability`).
 SANITIZE_TESTS ?= unit/% cli/% render/% fuzz/% faults/% bake/depend bake/edges bake/refusals \
   bake/resume bake/sandbox bake/test_store
-# OpenGL drivers leak, and are gone when leaks are told: no name to leave them out by.
-SANITIZE_GL := $(filter render/gl% render/test_gl% render/view% render/tradeoff,$(TEST_NAMES))
 # gcc 12's thread sanitizer dies where addresses are too random: setarch.
 THREAD_TESTS ?= cli/slab render/test_tiles render/test_cut render/test_visible render/image
 sanitize_step = $(MAKE) --no-print-directory TEST_TIMEOUT=1800
 
 .PHONY: sanitize
 sanitize: ## run the tests with sanitizers, the fuzzers, and many faults; tells how many
-	+@$(sanitize_step) config=sanitize T='$(filter-out $(SANITIZE_GL),$(filter $(SANITIZE_TESTS),$(TEST_NAMES)))' test
-	+@$(sanitize_step) config=sanitize T='$(SANITIZE_GL)' ASAN_MORE=:detect_leaks=0 test
+	+@$(sanitize_step) config=sanitize T='$(SANITIZE_TESTS)' test
 	+@$$(setarch -R true 2>/dev/null && echo setarch -R) $(sanitize_step) config=thread T='$(THREAD_TESTS)' test
 	+@$(MAKE) --no-print-directory fuzz
 	+@$(sanitize_step) MUTANTS=100000 FAULTS=40 KILLS=50 T='faults/%' test
