@@ -45,8 +45,8 @@ struct parts {
 
 static struct parts next_parts(const struct rule_nodes *nodes, int first,
                                const struct strip *whole) {
-  int last = first;
-  while (last < nodes->strips.count && nodes->strips.strip[last].low < whole->high) ++last;
+  int last = first + 1; /* of a strip that rounds to one slope, too */
+  while (last < nodes->strips.count && nodes->strips.strip[last - 1].high < whole->high) ++last;
   return (struct parts){first, last};
 }
 

@@ -33,7 +33,8 @@ static const double rounding = 5e-7;
 struct cut_work {
   struct cut_view view;
   struct cut_views *views[CUT_TOGETHER]; /* owned */
-  double *irradiance[CUT_TOGETHER];      /* of those that wait */
+  double *irradiance[CUT_TOGETHER];      /* of those that wait, */
+  double least[CUT_TOGETHER];            /* and what it is at least */
   int waiting;
   struct cut_node heap[NODES]; /* of the cut; the largest error first */
   int count;
@@ -261,7 +262,11 @@ static bool sum_cut(struct cut_work *work, double floor, double irradiance[3], d
 
 void cut_finish(struct cut_work *work) {
   cut_views_sum(work->views, work->waiting);
-  for (int k = 0; k < work->waiting; ++k) cut_views_light(work->views[k], work->irradiance[k]);
+  for (int k = 0; k < work->waiting; ++k) {
+    double *rgb = work->irradiance[k];
+    cut_views_light(work->views[k], rgb);
+    for (int c = 0; c < 3; ++c) rgb[c] = fmax(rgb[c], work->least[k]);
+  }
   work->waiting = 0;
 }
 
@@ -284,6 +289,7 @@ bool cut_sum(const struct cut_tree *tree, const struct view *from, double tolera
   if (work->waiting == CUT_TOGETHER) cut_finish(work);
   if (work->nodes == 0 || !cut_views_prepare(tree, view, work->nodes, work->views[work->waiting]))
     return false;
+  work->least[work->waiting] = tree->least;
   work->irradiance[work->waiting++] = irradiance;
   counts->views += (uint64_t)(work->nodes * view->page->axes[0].near_count) *
                    (uint64_t)(work->nodes * view->page->axes[1].near_count);

@@ -121,12 +121,18 @@ static double line_error(const struct cut_tree *tree, int level, const int at[2]
       tree->level[level].estimates + cut_texels(tree) * cut_node_number(tree, level, at);
   const int width = tree->page->axes[0].far_count;
   double error = 0;
-  if (spot[0]->bend > 0)
-    error += spot[0]->bend *
-             (double)tree->error[estimates[spot[1]->cell * width + spot[0]->line].line[0]];
-  if (spot[1]->bend > 0)
-    error += spot[1]->bend *
-             (double)tree->error[estimates[spot[1]->line * width + spot[0]->cell].line[1]];
+  for (int axis = 0; axis < 2; ++axis) {
+    const struct cut_spot *across = spot[1 - axis];
+    const int step = axis ? 1 : width;
+    const struct cut_estimate *at_line = estimates + spot[axis]->line * (axis ? width : 1);
+    if (!(spot[axis]->bend > 0)) continue;
+    int code = at_line[across->cell * step].line[axis];
+    /* Where it crosses a line of the other axis too, it is in the cells on both sides of that. */
+    for (int side = across->line - 1; across->bend > 0 && side <= across->line; ++side)
+      if (side >= 0 && at_line[side * step].line[axis] > code)
+        code = at_line[side * step].line[axis];
+    error += spot[axis]->bend * (double)tree->error[code];
+  }
   return error;
 }
 

@@ -351,6 +351,14 @@ static double find_ends(const struct view *view, double low[2], double high[2]) 
   return square;
 }
 
+/* Slopes are in single precision: what that makes of the height over the tangent plane. */
+static double slope_rounding(const struct view *view, const double low[2], const double high[2]) {
+  double range[2], far = 1;
+  kernel_heights(&view->kernel, low, high, range);
+  for (int axis = 0; axis < 2; ++axis) far = hypot(far, fmax(fabs(low[axis]), fabs(high[axis])));
+  return range[0] > 0 ? 2e-7 * far / range[0] : INFINITY;
+}
+
 /* With one node and the kernel's slope. */
 static double slope_error(const struct view *view) {
   const struct light_axis *axes = view->page->axes;
@@ -358,6 +366,7 @@ static double slope_error(const struct view *view) {
   double middle[2], low[2], high[2], error = rounding;
   const double nearest = find_ends(view, low, high);
   find_middle(view, middle);
+  error += slope_rounding(view, low, high);
   const double square = 1 + middle[0] * middle[0] + middle[1] * middle[1];
   const double tilt =
       sqrt(n[0] * n[0] + n[1] * n[1]) / kernel_height(&view->kernel, middle[0], middle[1]);
@@ -378,6 +387,7 @@ static double nodes_error(const struct view *view, int nodes) {
   const struct light_axis *axes = view->page->axes;
   double low[2], high[2], range[2], error = nodes_rounding;
   const double square = find_ends(view, low, high);
+  error += slope_rounding(view, low, high);
   kernel_heights(&view->kernel, low, high, range);
   if (!(range[0] > 0)) return INFINITY;
   for (int axis = 0; axis < 2; ++axis) {

@@ -75,18 +75,26 @@ static void find_step(struct trial *trial, const struct lamp *lamp, enum gather_
     done[side] = between;
   }
   const double *a = done[0].got.irradiance, *b = done[1].got.irradiance;
-  double step = 0, most = NUMERICS_DARK * lamp->hemisphere, spread[3];
+  double step = 0, most = NUMERICS_DARK * lamp->hemisphere, spread[2][3];
+  struct oracle_value exact[2];
   for (int c = 0; c < 3; ++c) most = fmax(most, fmax(fabs(a[c]), fabs(b[c])));
   if (method == GATHER_CUT) {
     double z = way->z[0] * pow(way->z[1] / way->z[0], t[0]);
     most = fmax(most, 1e-4 * fmin(lamp->most / (z * z), lamp->hemisphere));
   }
+  for (int k = 0; k < 2; ++k) {
+    const struct test_receiver at = along(way, t[k]);
+    exact[k] = oracle_irradiance(&lamp->slab, at.p, at.n);
+    oracle_spread(&lamp->slab, &at, spread[k]);
+  }
   const struct test_receiver at = along(way, t[0]);
   if (trial->verbose)
     printf("  receiver %.17g %.17g %.17g  %.17g %.17g %.17g: %.17g beside %.17g\n", at.p[0],
            at.p[1], at.p[2], at.n[0], at.n[1], at.n[2], a[0], b[0]);
-  oracle_spread(&lamp->slab, &at, spread);
-  for (int c = 0; c < 3; ++c) step = fmax(step, fabs(a[c] - b[c]) - 4 * spread[c]);
+  for (int c = 0; c < 3; ++c) {
+    double off = fabs(a[c] - b[c] - (double)(exact[0].e[c] - exact[1].e[c]));
+    step = fmax(step, off - spread[0][c] - spread[1][c]);
+  }
   trial_note(trial, method, step > 0 ? step / most : 0, claimed(method, &done[0], &done[1]));
 }
 
