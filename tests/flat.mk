@@ -63,7 +63,7 @@ bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(TRADEOFF_LAMPS) $(DE
 
 # EFFORT: seeds of each row, in proportion; CASE: one row and seed again, with all numbers.
 NUMERICS := $(B)/tests/numerics/test_numerics
-EFFORT ?= 20
+EFFORT ?= 8
 
 .PHONY: stability
 stability: $(NUMERICS) ## sweep hard cases of the sums; CASE='ROW SEED' repeats one
