@@ -46,6 +46,12 @@ static const char macros[] =
     "    #error concat(\"@_Canned: @_Lights is \", str(@_Lights, 0, 2),\n"
     "      \", must be at least 1\\n\")\n"
     "  #end\n"
+    "  #local Most_ = <0, 0, 0>;\n"
+    "  #for (Number_, 0, dimension_size(@_Lobes, 1) - 1)\n"
+    "    #if (vlength(@_Colours[Number_]) > vlength(Most_)) #local Most_ = @_Colours[Number_]; "
+    "#end\n"
+    "  #end\n"
+    "  @_Strength(Gain*Most_/(2*pi*1e-6))\n"
     "  union {\n"
     "    #for (Number_, 0, dimension_size(@_Lobes, 1) - 1)\n"
     "      @_Light(Number_, Scale, Gain)\n"
@@ -101,8 +107,8 @@ static void print_header(const struct cluster *cluster, const struct include_tex
   fprintf(out,
           "// Limits:  An approximation (errors below). POV-Ray ignores shadows closer than\n"
           "//          0.001 units to a light: Scale >= %.3g, or use larger scene units.\n"
-          "//          Not in a light_group. With an assumed_gamma other than 1.0 POV-Ray adds\n"
-          "//          light up wrongly.\n",
+          "//          Not in a light_group, not with quality +Q4 or less. With an assumed_gamma\n"
+          "//          other than 1.0 POV-Ray adds light up wrongly.\n",
           least_width / narrowest(cluster));
   if (cluster->black_pages)
     fprintf(out, "//          %d page(s) of the lamp hold no light and were left out.\n",
@@ -188,6 +194,7 @@ void cluster_print(const struct cluster *cluster, const struct include_text *tex
           "// Smallest width of an aperture, in scene units: POV-Ray ignores shadows closer\n"
           "// than 0.001.\n#declare %s_Least_Width = %g;\n\n",
           text->name, least_width);
+  include_strength(text->name, out);
   include_named(macros, text->name, out);
   include_end(text, cluster->stamp, out);
 }

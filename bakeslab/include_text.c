@@ -165,6 +165,27 @@ void include_image(const struct include_text *text, const char *mapping,
       text->name, out);
 }
 
+void include_strength(const char *name, FILE *out) {
+  include_named(
+      "// Stops where the lamp is too bright or too faint for POV-Ray, whose colours end near\n"
+      "// 1e38, and which drops what a light gives below 1e-10. Colour_ is the brightest light's.\n"
+      "#macro @_Strength(Colour_)\n"
+      "  #local Most_ = max(abs(Colour_.x), abs(Colour_.y), abs(Colour_.z));\n"
+      "  #if (Most_ > 1e37)\n"
+      "    #error \"@_Canned: too bright for POV-Ray's light colours: use a smaller Gain\\n\"\n"
+      "  #end\n"
+      "  #local Reach_ = sqrt(2e4*Most_);  // in aperture widths, with the fade that lights have\n"
+      "  #if (Most_ > 0 & Reach_ < 1000)\n"
+      "    #local Text_ = concat(\"@_Canned: too faint beyond \", str(Reach_, 0, 1),\n"
+      "      \" apertures, where POV-Ray drops its light: use \", str(ceil(pow(1000/Reach_, 2)), "
+      "0, 0),\n"
+      "      \" times the Gain\\n\")\n"
+      "    #if (Reach_ < 100) #error Text_ #else #warning Text_ #end\n"
+      "  #end\n"
+      "#end\n\n",
+      name, out);
+}
+
 const uint64_t include_hash_start = 14695981039346656037u;
 
 uint64_t include_hash(uint64_t hash, const void *bytes, size_t count) {

@@ -48,6 +48,10 @@ struct include_check {
 void include_image(const struct include_text *text, const char *mapping,
                    const struct include_check *check, FILE *out);
 
+/* The macro @_Strength(Colour), which stops where POV-Ray's numbers cannot hold a lamp whose
+ * brightest light has this colour and a fade distance of 1e-3 aperture widths. */
+void include_strength(const char *name, FILE *out);
+
 /* FNV-1a over 64 bits: the hash of `bytes` after that of what came before; start with
  * include_hash_start. */
 extern const uint64_t include_hash_start;

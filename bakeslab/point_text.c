@@ -24,6 +24,7 @@ static const char macros[] =
     "      str(Scale, 0, 4), \", or larger scene units\\n\")\n"
     "  #end\n"
     "  #local Fade_ = 1e-3*@_Width;\n"
+    "  @_Strength(Gain*@_Intensity/(2*pi*Fade_*Fade_))\n"
     "  union {\n"
     "    light_source { 0 rgb Gain*@_Intensity/(2*pi*Fade_*Fade_)\n"
     "      fade_power 2 fade_distance Scale*Fade_ }\n"
@@ -95,6 +96,7 @@ void point_print(const struct point *point, const struct include_text *text, FIL
   include_begin(text, point->stamp, out);
   print_numbers(point, text->name, out);
   include_image(text, "map_type 1 ", &point->check, out);
+  include_strength(text->name, out);
   include_named(macros, text->name, out);
   include_end(text, point->stamp, out);
 }

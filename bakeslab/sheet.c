@@ -11,7 +11,7 @@
 #include "sheet_error.h"
 #include "slab_resample.h"
 
-const double sheet_gate = 0.05, sheet_least_height = 0.0011;
+const double sheet_gate = 0.5, sheet_gap = 0.00104, sheet_least_height = 0.0011;
 
 /* POV-Ray takes light colours up to here. */
 static const double largest_colour = 1e37;

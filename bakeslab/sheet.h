@@ -28,11 +28,12 @@ enum { SHEET_DISTANCES = 5 };
 /* Distances at which the error is told, in aperture widths (longer edge). */
 extern const double sheet_distances[SHEET_DISTANCES];
 
-/* Height of the apertures that keep lights to their tiles, as a share of the
- * sheet's height, and the lowest sheet, in scene units, that POV-Ray then sees
- * all of: it wants its SMALL_TOLERANCE, 0.001, between an aperture and what
- * casts a shadow behind it. */
-extern const double sheet_gate, sheet_least_height;
+/* Height of the openings that keep lights to their tiles, as a share of the sheet's height.
+ * The higher, the wider they are, and the farther from the origin a lamp may stand: POV-Ray
+ * tests their bounding boxes in single precision. It also wants its SMALL_TOLERANCE, 0.001
+ * scene units, between an opening and what casts a shadow behind it, which is the gap that
+ * is left at least; and the lowest sheet that this leaves room for. */
+extern const double sheet_gate, sheet_gap, sheet_least_height;
 
 struct sheet_level {
   struct slab views; /* block means of the page; owned */
