@@ -66,9 +66,10 @@ NUMERICS := $(B)/tests/numerics/test_numerics
 EFFORT ?= 8
 
 .PHONY: stability
-stability: $(NUMERICS) ## sweep hard cases of the sums; CASE='ROW SEED' repeats one
+stability: $(NUMERICS) $(B)/tests/chain/test_stability $(BIN) ## sweep hard cases of the sums; CASE='ROW SEED' repeats one
 	@mkdir -p build/stability
 	@$(NUMERICS) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/index.html)
+	$(if $(CASE),,@echo && echo "POV-Ray's side, relative RMSE:" && $(TEST_ENV) $(B)/tests/chain/test_stability)
 
 lint: $(B)/flags ## check formatting, static analysis and house rules
 	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh

@@ -45,7 +45,7 @@ each_alone() { # "COMPILER AND STANDARD" HEADER...: every header compiles by its
   local compiler header bad=0
   read -ra compiler <<<"$1"
   for header in "${@:2}"; do
-    "${compiler[@]}" -fsyntax-only -Wall -Wextra -Werror -Ibakeslab -Irender -Itests -D_GNU_SOURCE "$header" || bad=1
+    "${compiler[@]}" -fsyntax-only -Wall -Wextra -Wconversion -Werror -Ibakeslab -Irender -Itests -D_GNU_SOURCE "$header" || bad=1
   done
   return "$bad"
 }
@@ -87,6 +87,11 @@ tidy() {
   return "$bad"
 }
 
+# The other sources pass through `analyse`, which makes errors of warnings too.
+warnings() {
+  only '^tests/.*\.c$' | xargs -P "$JOBS" -I NAME gcc "${flags[@]}" -Itests -Werror -fsyntax-only NAME
+}
+
 # No tests: assertions of cmocka confuse the analyser. Leaks and values
 # never set are left to clang-tidy and the sanitizers: gcc 12 sees a leak in each
 # `p->x = malloc(n)`, and sets only the first element of an array.
@@ -99,13 +104,14 @@ analyse() {
 check 'clang-format -i FILE would change' formatted
 check 'headers compile alone as C17' each_alone 'gcc -x c -std=c17' "${headers[@]}"
 check 'public headers compile alone as C++17' each_alone 'g++ -x c++ -std=c++17' "${public[@]}"
+check 'warnings in tests' warnings
 check 'files too long' long_files
 check 'machine paths' machine_paths
 check 'unfinished marks' unfinished
 # SC2317: functions are called through check. SC2013, SC2016: loops over words
-# and backticks in single quotes are meant.
+# and backticks in single quotes are meant. SC2030, SC2031: each bats test is a subshell.
 check shellcheck shellcheck -x -e SC2013,SC2016,SC2317 "${shells[@]}"
-[ "${#bats[@]}" -eq 0 ] || check 'shellcheck (bats)' shellcheck -s bats -e SC2013,SC2016 "${bats[@]}"
+[ "${#bats[@]}" -eq 0 ] || check 'shellcheck (bats)' shellcheck -s bats -e SC2013,SC2016,SC2030,SC2031 "${bats[@]}"
 check cppcheck cppcheck -q --std=c11 --enable=warning,performance,portability --inline-suppr -j "$JOBS" \
   --suppress=missingIncludeSystem --suppress=varFuncNullUB --error-exitcode=1 -Ibakeslab -Irender -D_GNU_SOURCE \
   '-Djson_object_foreach(object, key, value)=while (next(&key, &value))' \
