@@ -1,6 +1,7 @@
 /* bake.c - see bake.h. */
 #include "bake.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -118,7 +119,10 @@ static enum slab_result write_slab(const struct bake_work *work, struct bake_sta
   int count = state->lamp.slab_count;
   bake_sum_noise(state->rounds.sum, work->look.gain, &state->origin.noise);
   enum slab_result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
+  errno = 0;
   state->origin.housing = result ? NULL : find_housing(work, report);
+  if (!result && !state->origin.housing && errno == ENOMEM)
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
   char *text = bake_provenance(work, &state->origin);
   if (!result && !text) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int n = 0; n < count && !result; ++n) {

@@ -198,7 +198,7 @@ static enum slab_result compose(const struct include_choice *choice,
   if (!stream) return slab_fail(error, SLAB_MEMORY, "out of memory");
   print_include(choice, text, stream);
   enum slab_result result = SLAB_OK;
-  if (fclose(stream) != 0)
+  if (fclose(stream) != 0 || !content) /* glibc's fclose may lose the text without a word */
     result = slab_fail(error, SLAB_MEMORY, "out of memory");
   else if (slab_output_write(output, content, size, 0) != 0)
     result = slab_fail(error, SLAB_IO, "%s: cannot be written: %m", output->target);

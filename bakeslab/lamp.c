@@ -55,8 +55,9 @@ static enum slab_result write_probe(const char *directory, const struct effects 
   fputs("#version 3.7;\n", out);
   if (effects) effects_declare(effects, out);
   fputs(probe_scene, out);
-  enum slab_result result = fclose(out) ? slab_fail(error, SLAB_MEMORY, "out of memory")
-                                        : files_write(directory, "scene.pov", scene, error);
+  enum slab_result result = fclose(out) || !scene
+                                ? slab_fail(error, SLAB_MEMORY, "out of memory")
+                                : files_write(directory, "scene.pov", scene, error);
   free(scene);
   return result;
 }

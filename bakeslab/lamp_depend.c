@@ -91,7 +91,7 @@ static enum slab_result prepare(const struct lamp_reads *reads, const char *scri
   enum slab_result result = check_path(reads, target, path, error);
   FILE *rule = result ? NULL : open_memstream(&text, &size);
   if (rule) result = put_rule(rule, reads, script, target, error);
-  bool whole = rule && fclose(rule) == 0;
+  bool whole = rule && fclose(rule) == 0 && text;
   if (!whole && !result) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   if (!result) result = slab_output_begin(output, path, error);
   if (!result && slab_output_write(output, text, size, 0) != 0)

@@ -94,7 +94,7 @@ static enum slab_result write_ini(const struct povray_job *job, struct slab_erro
         ini);
   for (const char *const *path = job->library; path && *path; ++path)
     fprintf(ini, "Library_Path=\"%s\"\n", *path);
-  if (fclose(ini) != 0) {
+  if (fclose(ini) != 0 || !text) {
     free(text);
     return slab_fail(error, SLAB_MEMORY, "out of memory");
   }

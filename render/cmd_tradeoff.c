@@ -227,7 +227,8 @@ static enum slab_result write_files(const struct arguments *arguments, const str
     FILE *file = open_memstream(&texts[k], &lengths[k]);
     if (file && k == 0) tradeoff_print(file, settings, tradeoff, &about);
     if (file && k == 1) tradeoff_plot(file, tradeoff, &about);
-    if (!file || fclose(file) != 0) result = slab_fail(error, SLAB_MEMORY, "out of memory");
+    if (!file || fclose(file) != 0 || !texts[k])
+      result = slab_fail(error, SLAB_MEMORY, "out of memory");
   }
   if (result == SLAB_OK && arguments->plot) result = plot_write(arguments->plot, texts[1], error);
   if (result == SLAB_OK) result = write_text(arguments->output, texts[0], lengths[0], error);

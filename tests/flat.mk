@@ -18,7 +18,7 @@ TEST_LOGS := $(TEST_CHOSEN:%=$(B)/tests/%.log)
 
 TEST_ENV = BAKESLAB=$(abspath $(BAKE_BIN)) RENDERSLAB=$(abspath $(RENDER_BIN)) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
   CONFIG=$(config) FAULTS=$(FAULTS) KILLS=$(KILLS) TEST_JOBS=$(TEST_JOBS) TEST_TIMEOUT=$(TEST_TIMEOUT) \
-  CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=suppressions=$(abspath tests/thread.supp):allocator_may_return_null=1 ASAN_OPTIONS=allocator_may_return_null=1 LC_ALL=C.UTF-8
+  CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=suppressions=$(abspath tests/thread.supp):allocator_may_return_null=1 ASAN_OPTIONS=allocator_may_return_null=1:verify_asan_link_order=0 LC_ALL=C.UTF-8
 
 .PHONY: test bench lint
 

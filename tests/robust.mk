@@ -72,8 +72,9 @@ $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
 # All of it, at length: the tests under the address and undefined behaviour sanitizers, those of
 # threads under the thread sanitizer, the fuzzers, and more of every fault. Left out, since they
 # would take many minutes for code that runs in the others too: tests whose time is POV-Ray's
-# (chain, house, the bakes that find out by themselves) and numerics (`make stability`).
-SANITIZE_TESTS ?= unit/% cli/% render/% fuzz/% faults/% bake/depend bake/edges bake/refusals \
+# (chain, house, the bakes that find out by themselves), numerics (`make stability`), and windows,
+# whose drivers leak (render/view).
+SANITIZE_TESTS ?= unit/% cli/% render/test_% render/gl render/image render/office render/pov fuzz/% faults/% bake/depend bake/edges bake/refusals \
   bake/resume bake/sandbox bake/test_store
 # gcc 12's thread sanitizer dies where addresses are too random: setarch.
 THREAD_TESTS ?= cli/slab render/test_tiles render/test_cut render/test_visible render/image

@@ -64,7 +64,7 @@ struct run {
 
 static const char old_content[] = "old content\n";
 static char top[64]; /* of the test; holds in/, run/, out, err, calls */
-static long faults_tried, faults_told;
+static long faults_tried, faults_told, faults_of_jansson;
 
 static void must(bool done, const char *what) {
   if (done) return;
@@ -196,11 +196,21 @@ static void clear(const struct faults_command *command, bool old) {
     must(files_write(".", name, old_content, NULL) == SLAB_OK, name);
 }
 
+/* jansson 2.14 aborts by itself where the buffer of a word cannot grow: an assertion in load.c,
+ * or what is left of its text without memory. Nothing of ours is to be done about it. */
+static bool is_jansson(const struct run *run) {
+  bool it = strstr(run->line, "load.c:") || !strcmp(run->line, "Unexpected error.");
+  faults_of_jansson += it;
+  return it;
+}
+
 /* Why a run under a fault was not as it must be, or NULL. */
 static const char *judge(const struct faults_command *command, const struct run *run,
                          const struct left *before, const struct run *whole) {
   char name[16];
   snprintf(name, sizeof name, "%.*s: ", (int)strcspn(command->line, " "), command->line);
+  if (run->status < 0 && is_jansson(run) && is_old_or_new(&run->left, before, &whole->left, false))
+    return NULL;
   if (run->status < 0) return "crashed or did not end";
   if (run->status == 0) {
     if (!same(&run->left, &whole->left)) return "succeeded with other files";
@@ -313,8 +323,8 @@ int main(int argc, char **argv) {
            no_means ? " # SKIP seccomp cannot ask here" : "");
     fflush(stdout);
   }
-  printf("1..%d\n# %ld faults, %ld of them told, %d failures\n", number, faults_tried, faults_told,
-         all);
+  printf("1..%d\n# %ld faults, %ld of them told, %ld aborted by jansson, %d failures\n", number,
+         faults_tried, faults_told, faults_of_jansson, all);
   must(chdir("/") == 0, "/");
   files_remove_tree(top);
   return all > 0;
