@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "slab_cli.h"
 #include "tiles.h"
 #include "words.h"
 
@@ -78,12 +79,12 @@ static void parse_method(const char *name, struct options *options, struct argp_
   argp_error(state, "--method %s: there are %s", name, known);
 }
 
-static void add_light(const char *text, struct options *options, struct argp_state *state) {
+static void add_light(const char *text, struct options *options) {
   size_t room = sizeof *options->lights * ((size_t)options->light_count + 1);
   const char **lights = realloc(options->lights, room);
   if (!lights) {
-    argp_failure(state, EXIT_FAILURE, 0, "out of memory");
-    return;
+    cli_complain("out of memory");
+    exit(CLI_USAGE);
   }
   options->lights = lights;
   options->lights[options->light_count++] = text;
@@ -93,7 +94,7 @@ static error_t parse_lights(int key, char *value, struct argp_state *state) {
   struct options *options = state->input;
   switch (key) {
   case OPTION_LIGHT:
-    add_light(value, options, state);
+    add_light(value, options);
     return 0;
   case OPTION_REPAIR:
     options->repair = true;

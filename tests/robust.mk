@@ -77,13 +77,14 @@ $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
 SANITIZE_TESTS ?= unit/% cli/% render/test_% render/gl render/image render/office render/pov fuzz/% faults/% bake/depend bake/edges bake/refusals \
   bake/resume bake/sandbox bake/test_store
 # gcc 12's thread sanitizer dies where addresses are too random: setarch.
-THREAD_TESTS ?= cli/slab render/test_tiles render/test_cut render/test_visible render/image
+THREAD_TESTS ?= cli/slab render/test_tiles render/test_visible render/image
 sanitize_step = $(MAKE) --no-print-directory TEST_TIMEOUT=1800
 
 .PHONY: sanitize
 sanitize: ## run the tests with sanitizers, the fuzzers, and many faults; tells how many
+	@mkdir -p build && touch build/sanitize.start
 	+@$(sanitize_step) config=sanitize T='$(SANITIZE_TESTS)' test
 	+@$$(setarch -R true 2>/dev/null && echo setarch -R) $(sanitize_step) config=thread T='$(THREAD_TESTS)' test
 	+@$(MAKE) --no-print-directory fuzz
 	+@$(sanitize_step) MUTANTS=100000 FAULTS=40 KILLS=50 T='faults/%' test
-	@sh tests/faults/figures.sh build/sanitize build/thread build/fuzz $(B)
+	@sh tests/faults/figures.sh build/sanitize.start build/sanitize build/thread build/fuzz $(B)

@@ -216,7 +216,7 @@ static const char *judge(const struct faults_command *command, const struct run 
     if (!same(&run->left, &whole->left)) return "succeeded with other files";
     return run->left.output == whole->left.output ? NULL : "succeeded with another output";
   }
-  bool early = run->status == 2 && strstr(run->line, ": out of memory"); /* reading arguments */
+  bool early = run->status == 2 && strstr(run->line, "memory"); /* reading arguments */
   if (!early && run->status != (command->fails_with ? command->fails_with : 1))
     return "has another exit status";
   if (!is_old_or_new(&run->left, before, &whole->left, command->together))

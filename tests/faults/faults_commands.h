@@ -69,7 +69,7 @@ static const struct faults_command faults_commands[] = {
      .in = "../in/receivers",
      .outputs = ""},
     {.name = "image",
-     .line = "renderslab image ../in/square.obj --light ../in/little.tif --camera @../in/camera "
+     .line = "renderslab image -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
              "--size 8x6 --threads 2 -o x.exr --preview x.png",
      .outputs = "x.exr x.png"},
     {.name = "pov",

@@ -1,24 +1,25 @@
 #!/bin/sh
-# figures.sh BUILD... - what `make sanitize` tried, from the logs of its builds.
-tell() { # "WHAT" PATTERN FILE...: the sum of the numbers before PATTERN
-  what=$1 pattern=$2
-  shift 2
-  printf '%10d  %s\n' "$(cat "$@" 2>/dev/null | sed -n "s/^[# ]*\([0-9][0-9]*\) $pattern.*/\1/p" | awk '{ n += $1 } END { print n + 0 }')" "$what"
+# figures.sh SINCE BUILD... - what `make sanitize` tried, from the logs of its builds that are
+# newer than the file SINCE.
+since=$1
+shift
+builds=$*
+
+# texts PATTERN: those logs, one after the other.
+texts() {
+  # shellcheck disable=SC2086 # folders without blanks
+  find $builds -path "*/tests/$1" -newer "$since" -exec cat {} + 2>/dev/null
 }
-logs=
-for build in "$@"; do logs="$logs $build/tests/faults/*.log"; done
+# tell "WHAT" WORD: the sum of the numbers in lines `# N WORD ...`
+tell() {
+  texts 'faults/*.log' | sed -n "s/^[# ]*\([0-9][0-9]*\) $2.*/\1/p" |
+    awk -v what="$1" '{ n += $1 } END { printf "%10d  %s\n", n, what }'
+}
 echo 'Tried, without a crash, a hang or a report of a sanitizer:'
-# shellcheck disable=SC2086 # patterns
-{
-  tell 'mutated slabs' 'mutants' $logs
-  tell 'faults: allocations, writes and pipes that failed' 'faults' $logs
-  tell 'bakes killed' 'kills' $logs
-  tell 'pairs of bakes of one output' 'pairs' $logs
-}
-for build in "$@"; do
-  cat "$build"/tests/fuzz/*.fuzz.log 2>/dev/null
-done | sed -n 's/^stat::number_of_executed_units: *//p' | awk '{ n += $1 } END { printf "%10d  inputs of fuzzers\n", n }'
-for build in "$@"; do
-  find "$build/tests" -name '*.log.count' -exec cat {} + 2>/dev/null |
-    awk -v build="$build" '{ p += $1; f += $2 } END { if (p + f) printf "%10d  tests passed, %d failed in %s\n", p, f, build }'
-done
+tell 'mutated slabs' mutants
+tell 'faults: allocations, writes and pipes that failed' faults
+tell 'bakes killed' kills
+tell 'pairs of bakes of one output' pairs
+texts 'fuzz/*.fuzz.log' | sed -n 's/^stat::number_of_executed_units: *//p' |
+  awk '{ n += $1 } END { printf "%10d  inputs of fuzzers\n", n }'
+texts '*.log.count' | awk '{ n += $1 } END { printf "%10d  tests\n", n }'

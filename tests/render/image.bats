@@ -244,7 +244,7 @@ refuses() {
 }
 
 @test "a picture too large for the memory" {
-  [ "$CONFIG" != sanitize ] || skip "shadow memory needs more than the limit"
+  [[ $CONFIG != @(sanitize|thread) ]] || skip "shadow memory needs more than the limit"
   before=$(ls)
   ulimit -v 8000000
   refuses memory floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr --size 65536

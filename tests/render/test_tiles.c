@@ -27,6 +27,10 @@ static enum slab_result work(void *context, int tile, int worker, struct slab_er
   }
   ++job->of_worker[worker];
   atomic_fetch_add(&job->runs[tile], 1);
+  /* Those after a failure take long, so that a thread that was stopped on its way to fail
+   * comes in time. */
+  if (job->failing[1] >= 0 && tile > job->failing[1])
+    nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
   for (int k = 0; k < 2; ++k)
     if (tile == job->failing[k]) {
       if (k == 0) nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
