@@ -214,7 +214,7 @@ int cmd_projector(int argc, char **argv) {
   struct arguments arguments = {
       .projector = {.uv = {8, 8}, .metres_per_unit = 1, .unit = "relative"}};
   struct slab_error error = {{0}};
-  argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+  cli_parse(&argp, argc, argv, &arguments);
   int status = run(&arguments, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
 }

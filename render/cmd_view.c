@@ -119,7 +119,7 @@ int cmd_view(int argc, char **argv) {
                             .doc = help_text};
   struct arguments arguments = {.view = {.camera_optional = true}};
   struct slab_error error = {{0}};
-  argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+  cli_parse(&argp, argc, argv, &arguments);
   int status = run(&arguments, &error) == SLAB_OK ? CLI_OK : cli_fail(&error);
   options_free(&arguments.options);
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;

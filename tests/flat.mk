@@ -7,7 +7,7 @@ TEST_TIMEOUT ?= 540
 T := %
 
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
-TEST_HELPERS := $(filter-out $(TEST_SOURCES),$(wildcard tests/*/*.c))
+TEST_HELPERS := $(filter-out $(TEST_SOURCES),$(wildcard tests/*.c tests/*/*.c))
 TEST_BATS := $(sort $(wildcard tests/*/*.bats tests/*/*/*.bats))
 TEST_NAMES := $(TEST_SOURCES:tests/%.c=%) $(TEST_BATS:tests/%.bats=%)
 include tests/robust.mk
@@ -81,7 +81,7 @@ $(B)/tests/bench/roofline.o: EXTRA_CFLAGS += -ffp-contract=fast
 TEST_RENDERER := tests/render/% tests/numerics/%
 test_tested = $(B)/$(if $(filter $(TEST_RENDERER),$(1)),librender.a,libbake.a) $(B)/libslab.a
 # What else it is linked with: the oracles of tests/render serve tests/numerics, too.
-test_helpers = $(filter $(dir $(1))% $(if $(filter tests/numerics/%,$(1)),tests/render/%),$(TEST_HELPERS))
+test_helpers = $(filter tests/testing.c $(dir $(1))% $(if $(filter tests/numerics/%,$(1)),tests/render/%),$(TEST_HELPERS))
 test_libs = -lcmocka $(if $(filter $(TEST_RENDERER),$(1)),-lgmp $(RENDER_LIBS)) $(ALL_LDLIBS)
 
 define test_program

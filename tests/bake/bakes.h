@@ -3,15 +3,8 @@
 #ifndef BAKES_H
 #define BAKES_H
 
-/* cmocka.h needs these before it */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "slab_file.h"
+#include "testing.h"
 
 /* ---- The scratch folder of a test program ---- */
 

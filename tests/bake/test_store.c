@@ -1,9 +1,6 @@
 /* test_store.c - two bakes of the same output: the store has one holder, whoever comes and goes
  * at the same time. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdatomic.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,9 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "bake_store.h"
+#include "testing.h"
 
 enum { PROCESSES = 4, TURNS = 500 };
 

@@ -8,15 +8,9 @@
 #ifndef CHAIN_H
 #define CHAIN_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "slab_exr.h"
 #include "slab_file.h"
+#include "testing.h"
 
 enum { CHAIN_SIZE = 48, CHAIN_PIXELS = CHAIN_SIZE * CHAIN_SIZE };
 

@@ -1,18 +1,7 @@
 #!/usr/bin/env bats
 # renderslab's method gl in pictures, and what it says where OpenGL is missing.
 bats_require_minimum_version 1.5.0
-
-setup_file() {
-  cd "$BATS_FILE_TMPDIR" || return
-  load render
-  letter_lamp
-}
-
-setup() {
-  load render
-  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return
-  cp "$BATS_FILE_TMPDIR"/letter_f.* "$BATS_TEST_DIRNAME"/scenes/* .
-}
+load letter
 
 # picture OUT MESH OPTION...: lit from above, 80 x 60.
 picture() {

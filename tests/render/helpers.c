@@ -1,40 +1,10 @@
 /* helpers.c - see helpers.h. */
 #include "helpers.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-static char directory[256];
-
-static void remove_scratch(void) {
-  DIR *listing = opendir(directory);
-  const struct dirent *entry;
-  while (listing && (entry = readdir(listing)) != NULL) {
-    char path[600];
-    snprintf(path, sizeof path, "%s/%s", directory, entry->d_name);
-    if (entry->d_name[0] != '.') unlink(path);
-  }
-  if (listing) closedir(listing);
-  rmdir(directory);
-}
-
-const char *scratch(const char *name) {
-  static char paths[8][600];
-  static int next;
-  if (!*directory) {
-    const char *parent = getenv("TMPDIR");
-    snprintf(directory, sizeof directory, "%s/render-test-XXXXXX", parent ? parent : "/tmp");
-    if (!mkdtemp(directory)) abort();
-    atexit(remove_scratch);
-  }
-  char *path = paths[next++ % 8];
-  snprintf(path, sizeof paths[0], "%s/%s", directory, name);
-  return path;
-}
 
 /* The upper bits of PCG: neighbouring numbers must not be related, or
  * receivers would miss parts of the slab. */
@@ -195,10 +165,4 @@ void irradiance(const struct receiver *receivers, int count, double rgb[][3], co
   }
   if (fgets(line, sizeof line, file)) fail_msg("a line too many: %s", line);
   fclose(file);
-}
-
-void assert_near_at(double a, double b, double tolerance, const char *file, int line) {
-  if (fabs(a - b) <= tolerance) return;
-  print_error("%.17g and %.17g differ by %g, more than %g\n", a, b, fabs(a - b), tolerance);
-  _fail(file, line);
 }

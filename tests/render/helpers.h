@@ -1,18 +1,11 @@
-/* helpers.h - what the tests of renderslab share: scratch files, rough slabs
- * in any frame, receivers that see something of them, and the program run as a
+/* helpers.h - what the tests of renderslab share: rough slabs in any
+ * frame, receivers that see something of them, and the program run as a
  * user runs it. */
 #ifndef HELPERS_H
 #define HELPERS_H
 
-/* cmocka.h needs these before it */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "slab_file.h"
+#include "testing.h"
 
 enum { COUNT_MAX = 4096 }; /* receivers in one run */
 
@@ -39,10 +32,6 @@ enum frame {
   FRAME_TURNED,  /* any rotation, off the origin, two lengths */
   FRAME_MIRRORED /* the same with u x v = -n */
 };
-
-/* A path in a scratch directory of this process; valid until the next 8 calls.
- * The directory goes away at exit. */
-const char *scratch(const char *name);
 
 /* A number in [0, 1) from a seed; the same on every machine. */
 double random_number(uint32_t *seed);
@@ -74,9 +63,5 @@ void need_program(void);
  * and prints one line of three finite numbers for each. */
 void irradiance(const struct receiver *receivers, int count, double rgb[][3], const char *arguments,
                 ...) __attribute__((format(printf, 4, 5)));
-
-/* |a - b| <= tolerance; NaN fails. */
-#define assert_near(a, b, tolerance) assert_near_at(a, b, tolerance, __FILE__, __LINE__)
-void assert_near_at(double a, double b, double tolerance, const char *file, int line);
 
 #endif

@@ -1,18 +1,7 @@
 #!/usr/bin/env bats
 # renderslab image: what the picture shows, and what is refused.
 bats_require_minimum_version 1.5.0
-
-setup_file() {
-  cd "$BATS_FILE_TMPDIR" || return
-  load render
-  letter_lamp
-}
-
-setup() {
-  load render
-  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return
-  cp "$BATS_FILE_TMPDIR"/letter_f.* "$BATS_TEST_DIRNAME"/scenes/* .
-}
+load letter
 
 # picture OUT OPTION...: the floor lit from above, 40 x 30.
 picture() {

@@ -3,18 +3,7 @@
 # slabs. Both sum over the slab's uv samples, so what remains is POV-Ray's half floats (2e-4)
 # and edges of shadows.
 bats_require_minimum_version 1.5.0
-
-setup_file() {
-  cd "$BATS_FILE_TMPDIR" || return
-  load render
-  letter_lamp
-}
-
-setup() {
-  load render
-  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return
-  cp "$BATS_FILE_TMPDIR"/letter_f.* "$BATS_TEST_DIRNAME"/scenes/* .
-}
+load letter
 
 @test "a floor" {
   REFERENCE=5 agree 0.1 floor floor.obj --light 'letter_f.tif at=0,1,0'

@@ -1,17 +1,13 @@
 /* test_between.c - where it says that nothing stands between receivers and an aperture, no
  * segment meets a triangle (brute force); and it says so where users would expect it. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "between.h"
 #include "scene.h"
+#include "testing.h"
 
 enum { TRIANGLES = 40, RECEIVERS = 5, RAYS = 200, CASES = 400 };
 

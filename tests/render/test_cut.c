@@ -2,18 +2,14 @@
  * are smooth, have thin peaks or sharp edges, wherever the receivers are; what it costs; the
  * hand-over to micro lights. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "cut.h"
 #include "cut_views.h"
 #include "gather.h"
+#include "testing.h"
 #include "vector.h"
 
 enum { COUNT = 1000, TILE = 64 };

@@ -2,16 +2,12 @@
  * force over the aperture that shares nothing with the renderer but slab_lookup; and the
  * methods' predicted errors hold for glossy receivers too. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "gather.h"
+#include "testing.h"
 
 enum { FINE = 1500 };
 

@@ -1,19 +1,15 @@
 /* test_view.c - the viewer's picture, without a window: surfaces that are drawn against camera
  * rays, lamps that are seen, views that come in bit by bit, lights that move. */
+#include <epoxy/gl.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-#include <epoxy/gl.h>
-
 #include "image.h"
 #include "light.h"
 #include "occlusion.h"
+#include "testing.h"
 #include "vector.h"
 #include "view_picture.h"
 

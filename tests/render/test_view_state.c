@@ -1,15 +1,11 @@
 /* test_view_state.c - what keys and mouse do to the viewer's state; the words on its picture. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "levels.h"
+#include "testing.h"
 #include "vector.h"
 #include "view_camera.h"
 #include "view_command.h"

@@ -1,18 +1,7 @@
 #!/usr/bin/env bats
 # renderslab tradeoff: what the table says, and what is refused. Never how long anything took.
 bats_require_minimum_version 1.5.0
-
-setup_file() {
-  cd "$BATS_FILE_TMPDIR" || return
-  load render
-  letter_lamp
-}
-
-setup() {
-  load render
-  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return
-  cp "$BATS_FILE_TMPDIR"/letter_f.tif "$BATS_TEST_DIRNAME"/scenes/* .
-}
+load letter
 
 # tradeoff OPTION...: the floor and what stands on it, lit from above.
 tradeoff() {

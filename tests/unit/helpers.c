@@ -1,50 +1,10 @@
 /* helpers.c - see helpers.h. */
 #include "helpers.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-static char directory[256];
-
-static void remove_scratch(void) {
-  DIR *listing = opendir(directory);
-  const struct dirent *entry;
-  while (listing && (entry = readdir(listing)) != NULL) {
-    char path[600];
-    snprintf(path, sizeof path, "%s/%s", directory, entry->d_name);
-    if (entry->d_name[0] != '.') unlink(path);
-  }
-  if (listing) closedir(listing);
-  rmdir(directory);
-}
-
-const char *scratch(const char *name) {
-  static char paths[8][600];
-  static int next;
-  if (!*directory) {
-    const char *parent = getenv("TMPDIR");
-    snprintf(directory, sizeof directory, "%s/slab-test-XXXXXX", parent ? parent : "/tmp");
-    if (!mkdtemp(directory)) abort();
-    atexit(remove_scratch);
-  }
-  char *path = paths[next++ % 8];
-  snprintf(path, sizeof paths[0], "%s/%s", directory, name);
-  return path;
-}
-
-int scratch_entries(void) {
-  int count = 0;
-  scratch("");
-  DIR *listing = opendir(directory);
-  const struct dirent *entry;
-  while (listing && (entry = readdir(listing)) != NULL) count += entry->d_name[0] != '.';
-  if (listing) closedir(listing);
-  return count;
-}
 
 double random_number(uint32_t *seed) {
   *seed = *seed * 1664525u + 1013904223u;
@@ -102,12 +62,6 @@ void oracle_lookup(const struct slab *slab, double a, double b, double s, double
           size_t pixel = (size_t)(j * n[3] + l) * (size_t)(n[0] * n[2]) + (size_t)(i * n[2] + k);
           for (size_t c = 0; c < 3; ++c) rgb[c] += weight * (double)slab->rgb[3 * pixel + c];
         }
-}
-
-void assert_near_at(double a, double b, double tolerance, const char *file, int line) {
-  if (fabs(a - b) <= tolerance) return;
-  print_error("%.17g and %.17g differ by %g, more than %g\n", a, b, fabs(a - b), tolerance);
-  _fail(file, line);
 }
 
 void assert_ok(enum slab_result result, const struct slab_error *error) {

@@ -1,21 +1,10 @@
-/* helpers.h - what the slab tests share: scratch files, slabs filled with
- * known numbers, an independent oracle for lookups. */
+/* helpers.h - what the slab tests share: slabs filled with known
+ * numbers, an independent oracle for lookups. */
 #ifndef HELPERS_H
 #define HELPERS_H
 
-/* cmocka.h needs these before it */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "slab_file.h"
-
-/* A path in a scratch directory of this process, which exists; valid until the
- * next 8 calls. The directory and what is in it goes away at exit. */
-const char *scratch(const char *name);
+#include "testing.h"
 
 /* A number in [0, 1) from a seed; the same on every machine. */
 double random_number(uint32_t *seed);
@@ -31,11 +20,6 @@ void fill_colours(struct slab *slab, uint32_t seed);
  * from the format's text alone. */
 void oracle_lookup(const struct slab *slab, double a, double b, double s, double t, double rgb[3]);
 
-/* |a - b| <= tolerance in double precision (cmocka's assert_float_equal rounds
- * to float); NaN fails. */
-#define assert_near(a, b, tolerance) assert_near_at(a, b, tolerance, __FILE__, __LINE__)
-void assert_near_at(double a, double b, double tolerance, const char *file, int line);
-
 /* Fails the test with the message where the operation failed. */
 void assert_ok(enum slab_result result, const struct slab_error *error);
 
@@ -47,8 +31,5 @@ void assert_refused(enum slab_result result, const struct slab_error *error, ...
 void assert_file_refused(const char *path, const char *piece1, const char *piece2);
 
 void write_bytes(const char *path, const void *bytes, size_t count);
-
-/* The number of entries in the scratch directory. */
-int scratch_entries(void);
 
 #endif
