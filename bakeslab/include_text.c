@@ -4,6 +4,8 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "slab_sdl.h"
+
 void include_named(const char *template, const char *name, FILE *out) {
   for (; *template; ++template) {
     if (*template == '@')
@@ -13,27 +15,12 @@ void include_named(const char *template, const char *name, FILE *out) {
   }
 }
 
-/* A string of SDL: POV-Ray knows \" and \\. */
-static void print_string(const char *text, FILE *out) {
-  putc('"', out);
-  for (; *text; ++text) {
-    if (*text == '"' || *text == '\\') putc('\\', out);
-    putc(*text, out);
-  }
-  putc('"', out);
-}
-
-/* In a comment, a control character must not end the line. */
-static void print_comment(const char *text, FILE *out) {
-  for (; *text; ++text) putc((unsigned char)*text < ' ' || *text == 0x7f ? '?' : *text, out);
-}
-
 static void print_files(const struct include_text *text, FILE *out) {
   fputs("// Persistence of Vision Ray Tracer Scene Include File\n// File:    ", out);
-  print_comment(text->file, out);
+  slab_sdl_comment(text->file, out);
   if (text->image) {
     fputs(", with its image ", out);
-    print_comment(text->image, out);
+    slab_sdl_comment(text->image, out);
     fputs(" beside it", out);
   }
   putc('\n', out);
@@ -49,13 +36,13 @@ void include_head(const struct include_text *text, const char *description, cons
           "// Licence: CC0 1.0, public domain: use it as you like\n"
           "// Made by: ",
           text->name, description);
-  print_comment(text->command, out);
+  slab_sdl_comment(text->command, out);
   if (text->chosen) {
     fputs("\n// Chosen:  ", out);
-    print_comment(text->chosen, out);
+    slab_sdl_comment(text->chosen, out);
   }
   fputs("\n//\n// Usage:   global_settings { assumed_gamma 1.0 }\n//          #include \"", out);
-  print_comment(text->file, out);
+  slab_sdl_comment(text->file, out);
   include_named("\"\n"
                 "//          object { @_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
                 "//\n"
@@ -127,7 +114,7 @@ void include_image(const struct include_text *text, const char *mapping,
   const char *channel = channels[check->channel];
   double value = check->rgb[check->channel];
   include_named("#ifndef(@_Sheet_File) #declare @_Sheet_File = ", text->name, out);
-  print_string(text->image, out);
+  slab_sdl_string(text->image, out);
   include_named(
       "; #end\n"
       "#if (!file_exists(@_Sheet_File))\n"

@@ -9,22 +9,8 @@
 #include <unistd.h>
 
 #include "slab_output.h"
+#include "slab_sdl.h"
 #include "vector.h"
-
-/* A string of SDL: POV-Ray knows \" and \\. */
-static void print_string(const char *text, FILE *out) {
-  putc('"', out);
-  for (; *text; ++text) {
-    if (*text == '"' || *text == '\\') putc('\\', out);
-    putc(*text, out);
-  }
-  putc('"', out);
-}
-
-/* In a comment, a control character must not end the line. */
-static void print_comment(const char *text, FILE *out) {
-  for (; *text; ++text) putc((unsigned char)*text < ' ' || *text == 0x7f ? '?' : *text, out);
-}
 
 /* As a word of a shell. */
 static void print_word(const char *text, FILE *out) {
@@ -44,7 +30,7 @@ static void print_vector(const double v[3], FILE *out) {
 
 static void print_header(const char *path, const struct pov_view *view, FILE *out) {
   fputs("// Made by: ", out);
-  print_comment(view->command, out);
+  slab_sdl_comment(view->command, out);
   fputs("\n// Render it in the folder where that ran, by\n//   povray +I", out);
   print_word(path, out);
   fprintf(out,
@@ -124,7 +110,7 @@ static double print_pigment(const struct scene *scene, const struct scene_materi
     return 1;
   }
   fprintf(out, "pigment { uv_mapping image_map { %s ", kind);
-  print_string(path, out);
+  slab_sdl_string(path, out);
   fprintf(out, " %sinterpolate 2 } }", srgb ? "gamma srgb " : "");
   return mean(material->diffuse);
 }
@@ -172,7 +158,7 @@ static void print_textures(const struct scene *scene, char note[256], FILE *out)
     const struct scene_material *material = &scene->materials[k];
     const char *lost = loss(scene, material);
     fputs("    // ", out);
-    print_comment(material->name, out);
+    slab_sdl_comment(material->name, out);
     if (lost) {
       fprintf(out, "\n    // %s", lost);
       if (!*note) snprintf(note, 256, "material %s: %s", material->name, lost);
@@ -219,9 +205,9 @@ static void print_includes(const struct pov_includes *includes, FILE *out) {
   for (int k = 0; k < includes->count; ++k) {
     const struct pov_include *include = &includes->list[k];
     fprintf(out, "#declare %s_Sheet_File = ", include->name);
-    print_string(include->image, out);
+    slab_sdl_string(include->image, out);
     fputs(";\n#include ", out);
-    print_string(include->path, out);
+    slab_sdl_string(include->path, out);
     putc('\n', out);
   }
   putc('\n', out);
