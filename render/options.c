@@ -113,6 +113,30 @@ static void set_defaults(struct options *options) {
   options->shadow_map = 2048;
 }
 
+/* Options that some methods do not know: asking for them there is a mistake. */
+#define OF(method) (1u << GATHER_##method)
+static const struct {
+  int key;
+  unsigned methods; /* bits */
+  const char *name, *of;
+} bound[] = {
+    {OPTION_LEVEL, OF(LEVELS) | OF(PAPER_LEVELS) | OF(GL), "level", "levels, paper-levels and gl"},
+    {OPTION_SEED, OF(PAPER) | OF(PAPER_LEVELS), "seed", "paper and paper-levels"},
+    {OPTION_SHADOW_GRID, ~OF(GL), "shadow-grid", "all methods but gl"},
+    {OPTION_SHADOW_EDGE, ~OF(GL), "shadow-edge", "all methods but gl"},
+    {OPTION_SHADOW_MAP, OF(GL), "shadow-map", "gl"},
+    {OPTION_SHADOW_GROUPS, OF(GL), "shadow-groups", "gl"},
+    {OPTION_GL_PASSES, OF(GL), "gl-passes", "gl"},
+};
+
+static void check_bound(const struct options *options, struct argp_state *state) {
+  for (size_t k = 0; k < sizeof bound / sizeof *bound; ++k)
+    if (options->given >> (bound[k].key - OPTION_LIGHT) & 1 &&
+        !(bound[k].methods >> options->method & 1))
+      argp_error(state, "--%s: not with --method %s; it is for %s", bound[k].name,
+                 gather_method_name(options->method), bound[k].of);
+}
+
 /* Shadows as fine as the tolerance calls for, where that decides what is summed. */
 static void set_shadows(struct options *options) {
   bool by_tolerance = options->method == GATHER_AUTO || options->method == GATHER_CUT;
@@ -129,12 +153,14 @@ static void finish(struct options *options, struct argp_state *state) {
   if (options->shadow_edge > 0 && options->shadow_edge < options->shadow_grid)
     argp_error(state, "--shadow-edge %d: must not be less than --shadow-grid %d",
                options->shadow_edge, options->shadow_grid);
+  check_bound(options, state);
   set_shadows(options);
 }
 
 static error_t parse_sum(int key, char *value, struct argp_state *state) {
   struct options *options = state->input;
   uint64_t level = 0;
+  if (key >= OPTION_LIGHT && key <= OPTION_GL_PASSES) options->given |= 1u << (key - OPTION_LIGHT);
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = options;

@@ -24,6 +24,7 @@ struct options {
   int shadow_grid, shadow_edge;  /* 16, 256; coarser where the tolerance allows */
   int shadow_map, shadow_groups; /* of method gl: 2048, 0 (each view) */
   bool gl_separate;              /* method gl: a pass for each view */
+  unsigned given;                /* which options were, a bit each */
 };
 
 /* Shadows, unless the tolerance allows less. */

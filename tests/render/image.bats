@@ -173,6 +173,10 @@ refuses() {
   refuses toward "${good[@]}" --light 'letter_f.tif at=1,1,1 toward=1,1,1'
   refuses scale "${good[@]}" --light 'letter_f.tif scale=0'
   refuses "auto, reference, paper, midpoint, pi, closed, views" "${good[@]}" --light letter_f.tif --method best
+  refuses 'paper and paper-levels' "${good[@]}" --light letter_f.tif --seed 1
+  refuses 'not with --method pi' "${good[@]}" --light letter_f.tif --method pi --level 2
+  refuses shadow-grid "${good[@]}" --light letter_f.tif --method gl --shadow-grid 8
+  refuses 'it is for gl' "${good[@]}" --light letter_f.tif --shadow-map 512
   refuses highlight gloss.obj "${good[@]:1}" --light letter_f.tif --method closed
   refuses tolerance "${good[@]}" --light letter_f.tif --tolerance 0
   refuses tolerance "${good[@]}" --light letter_f.tif --tolerance nan
