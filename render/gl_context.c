@@ -21,7 +21,8 @@ enum slab_result gl_fail(struct slab_error *error, enum slab_result result, cons
   va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
-  return slab_fail(error, result, "OpenGL: %s; --method views sums the same on the CPU", text);
+  return slab_fail(error, result,
+                   "OpenGL: %s; `renderslab image --method views' sums the same on the CPU", text);
 }
 
 enum slab_result gl_check(const char *what, struct slab_error *error) {

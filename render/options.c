@@ -157,6 +157,31 @@ static void finish(struct options *options, struct argp_state *state) {
   set_shadows(options);
 }
 
+static error_t parse_shadows(int key, const char *value, struct argp_state *state) {
+  struct options *options = state->input;
+  switch (key) {
+  case OPTION_SHADOW_GRID:
+    options->shadow_grid = parse_count("--shadow-grid", value, MOST_SHADOW_GRID, state);
+    return 0;
+  case OPTION_SHADOW_EDGE:
+    options->shadow_edge = parse_count("--shadow-edge", value, MOST_SHADOW_EDGE, state);
+    return 0;
+  case OPTION_SHADOW_MAP:
+    options->shadow_map = parse_count("--shadow-map", value, MOST_SHADOW_MAP, state);
+    return 0;
+  case OPTION_SHADOW_GROUPS:
+    options->shadow_groups = parse_count("--shadow-groups", value, MOST_SHADOW_GROUPS, state);
+    return 0;
+  case OPTION_GL_PASSES:
+    if (strcmp(value, "one") && strcmp(value, "views"))
+      argp_error(state, "--gl-passes %s: there are one and views", value);
+    options->gl_separate = !strcmp(value, "views");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
 static error_t parse_sum(int key, char *value, struct argp_state *state) {
   struct options *options = state->input;
   uint64_t level = 0;
@@ -195,28 +220,11 @@ static error_t parse_sum(int key, char *value, struct argp_state *state) {
       argp_error(state, "--effects %s: there are auto and all", value);
     options->all_effects = !strcmp(value, "all");
     return 0;
-  case OPTION_SHADOW_GRID:
-    options->shadow_grid = parse_count("--shadow-grid", value, MOST_SHADOW_GRID, state);
-    return 0;
-  case OPTION_SHADOW_EDGE:
-    options->shadow_edge = parse_count("--shadow-edge", value, MOST_SHADOW_EDGE, state);
-    return 0;
-  case OPTION_SHADOW_MAP:
-    options->shadow_map = parse_count("--shadow-map", value, MOST_SHADOW_MAP, state);
-    return 0;
-  case OPTION_SHADOW_GROUPS:
-    options->shadow_groups = parse_count("--shadow-groups", value, MOST_SHADOW_GROUPS, state);
-    return 0;
-  case OPTION_GL_PASSES:
-    if (strcmp(value, "one") && strcmp(value, "views"))
-      argp_error(state, "--gl-passes %s: there are one and views", value);
-    options->gl_separate = !strcmp(value, "views");
-    return 0;
   case ARGP_KEY_SUCCESS:
     finish(options, state);
     return 0;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return parse_shadows(key, value, state);
   }
 }
 
