@@ -87,6 +87,10 @@ enum slab_result gl_context_create(struct gl_context **context, struct slab_erro
   return result;
 }
 
+void gl_context_use(const struct gl_context *context) {
+  eglMakeCurrent(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE, context->context);
+}
+
 /* The display is not terminated: it is one for the whole process. */
 void gl_context_free(struct gl_context *context) {
   if (context && context->display != EGL_NO_DISPLAY) {

@@ -11,7 +11,8 @@ struct gl_context; /* owned by whoever created it */
 
 /* Makes a context and makes it current. */
 enum slab_result gl_context_create(struct gl_context **context, struct slab_error *error);
-void gl_context_free(struct gl_context *context); /* NULL allowed */
+void gl_context_use(const struct gl_context *context); /* makes it current again */
+void gl_context_free(struct gl_context *context);      /* NULL allowed */
 
 struct gl_limits {
   int texture;    /* samples along a side of a texture */

@@ -36,6 +36,7 @@ enum slab_result gl_gather_create(const struct gl_sum_settings *settings, struct
 
 void gl_gather_free(struct gl_gather *gather) {
   if (!gather) return;
+  if (gather->context) gl_context_use(gather->context);
   if (gather->receivers.target) gl_receivers_free(&gather->receivers);
   gl_sum_free(&gather->sum);
   gl_context_free(gather->context);
@@ -47,15 +48,23 @@ const struct gather_counts *gl_gather_counts(const struct gl_gather *gather) {
   return &gather->counts;
 }
 
+/* So far away that floats do not hold it, nor its light. */
+static bool is_beyond(const struct receiver *receiver, const double origin[3]) {
+  for (int c = 0; c < 3; ++c)
+    if (!(fabs(receiver->position[c] - origin[c]) < 1e36)) return true;
+  return false;
+}
+
 /* Vectors of the receivers, `offset` bytes from their start, less `origin`. */
 static void upload(struct gl_gather *gather, unsigned texture, const struct receiver *receivers,
                    int count, size_t offset, const double origin[3]) {
   int rows = (count + WIDTH - 1) / WIDTH;
   for (int k = 0; k < rows * WIDTH; ++k) {
     double vector[3] = {0};
-    if (k < count) memcpy(vector, (const char *)&receivers[k] + offset, sizeof vector);
+    bool here = k < count && !is_beyond(&receivers[k], gather->sum.origin);
+    if (here) memcpy(vector, (const char *)&receivers[k] + offset, sizeof vector);
     for (int c = 0; c < 3; ++c) gather->pixels[k][c] = (float)(vector[c] - origin[c]);
-    gather->pixels[k][3] = k < count ? (float)receivers[k].shininess : -1;
+    gather->pixels[k][3] = here ? (float)receivers[k].shininess : -1;
   }
   glBindTexture(GL_TEXTURE_2D, texture);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, WIDTH, rows, GL_RGBA, GL_FLOAT, gather->pixels);
@@ -80,6 +89,7 @@ enum slab_result gl_gather_light(struct gl_gather *gather, const struct receiver
   const struct gl_receivers *textures = &gather->receivers;
   struct gl_sum *sum = &gather->sum;
   bool gloss = false;
+  gl_context_use(gather->context);
   for (int k = 0; k < count; ++k) {
     gathered[k] = (struct gathered){.error = INFINITY};
     gloss = gloss || receivers[k].shininess > 0;

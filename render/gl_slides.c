@@ -177,9 +177,20 @@ static enum slab_result upload(const struct candidate *views, int layers, struct
   return result;
 }
 
-static enum slab_result check(const struct slab *slab, const struct gl_limits *limits,
+/* Lengths whose quotients floats hold, however near or far a receiver is. */
+static const double shortest = 1e-15, longest = 1e15;
+
+static enum slab_result check(const struct gl_slides *slides, const struct gl_limits *limits,
                               struct slab_error *error) {
-  const int *n = slab->samples;
+  const struct light_axis *axes = slides->page->axes;
+  const int *n = slides->page->slab.samples;
+  double far = vector_length(slides->center);
+  for (int axis = 0; axis < 2; ++axis)
+    if (!(2 * axes[axis].half >= shortest && 2 * axes[axis].half <= longest && far <= longest))
+      return gl_fail(error, SLAB_BAD,
+                     "an aperture of %.3g x %.3g, %.3g from the middle of all; single precision "
+                     "takes lengths of %g to %g",
+                     2 * axes[0].half, 2 * axes[1].half, far, shortest, longest);
   if (n[SLAB_S] > limits->texture || n[SLAB_T] > limits->texture)
     return gl_fail(error, SLAB_BAD, "%d x %d directions a view; this driver's textures have %d",
                    n[SLAB_S], n[SLAB_T], limits->texture);
@@ -196,7 +207,7 @@ enum slab_result gl_slides_create(const struct light_page *page, double gain,
   const struct slab *slab = &page->slab;
   *slides = (struct gl_slides){.page = page, .scale = gain};
   vector_subtract(page->center, origin, slides->center);
-  enum slab_result result = check(slab, limits, error);
+  enum slab_result result = check(slides, limits, error);
   if (result != SLAB_OK) return result;
   size_t views = (size_t)slab->samples[SLAB_U] * (size_t)slab->samples[SLAB_V];
   struct candidate *found = calloc(views, sizeof *found);

@@ -137,18 +137,18 @@ static void set_receivers(const struct gl_receivers *receivers, unsigned program
 
 static void set_page(const struct gl_sum *sum, const struct gl_slides *slides, unsigned program) {
   const struct light_axis *axes = slides->page->axes;
-  double kappa[2], window[4], area = slides->scale / sum->unit;
+  double kappa[2], window[4], cell[2];
   for (int axis = 0; axis < 2; ++axis) {
     kappa[axis] = axes[axis].kappa;
     window[axis] = axes[axis].far_low;
     window[2 + axis] = 1 / (axes[axis].far_high - axes[axis].far_low);
-    area *= axes[axis].near_step;
+    cell[axis] = axes[axis].near_step * (axis ? 1 : slides->scale / sum->unit);
   }
   gl_set_floats(program, "center", 3, slides->center);
   gl_set_frame(program, slides->page->frame);
   gl_set_floats(program, "kappa", 2, kappa);
   gl_set_floats(program, "window", 4, window);
-  gl_set_floats(program, "area", 1, &area);
+  gl_set_floats(program, "cell", 2, cell);
   gl_set_texture(program, "views", VIEWS, GL_TEXTURE_BUFFER, slides->views);
 }
 

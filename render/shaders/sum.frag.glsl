@@ -8,11 +8,14 @@ uniform vec3 center;                 // of the page
 uniform mat3 frame;                  // its columns are u', v' and n
 uniform vec2 kappa;                  // 1/distance of the st plane
 uniform vec4 window;                 // s0, t0, 1/(s1 - s0), 1/(t1 - t0)
-uniform float area;                  // of a view's cell, times the page's gain
+uniform vec2 cell;                   // sides of a view's cell, one times the page's gain
 uniform sampler2DArray slides;
 uniform samplerBuffer views;         // a, b, layer of the slides, map
 uniform int first, count;
 uniform vec2 share;                  // of the views that counts, from view `first` on
+
+// Nothing becomes infinite: beside a view, slopes and inverse squares have no bounds.
+const float steep = 1e18, bright = 1e30, least = 1e-36;
 
 layout(location = 0) out vec4 irradiance;
 #ifdef GLOSS
@@ -58,7 +61,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 point = texelFetch(position, pixel, 0);
   vec3 p = (point.xyz - center)*frame;
-  if (point.w < 0 || p.z <= 0) discard;
+  if (point.w < 0 || p.z < least) discard;
   vec3 n = texelFetch(normal, pixel, 0).xyz*frame;
 #ifdef GLOSS
   vec3 e = texelFetch(eye, pixel, 0).xyz*frame;
@@ -71,23 +74,23 @@ void main() {
   for (int k = first; k < first + count; ++k) {
     vec4 view = texelFetch(views, k);
     float part = min(k - first + 1, share.y) - max(k - first, share.x);
-    vec2 slope = (view.xy - p.xy)/p.z;
+    vec2 slope = clamp((view.xy - p.xy)/p.z, -steep, steep);
     float height = max(dot(n.xy, slope) - n.z, 0), square = 1 + dot(slope, slope);
     vec3 light = slide(slope, view.xy, view.z);
 #ifdef SHADOWS
     if (light == vec3(0) || shadowed(p, plane, int(view.w))) continue;
 #endif
     light *= part;
-    matte += light*(height/(square*square));
+    matte += light*(height/square/square);
 #ifdef GLOSS
     float r = sqrt(square);
     float along = dot(n, normalize(vec3(slope, -1)/r + e));
     if (height > 0 && along > 0 && point.w > 0) glossy += light*(pow(along, point.w)/(r*square));
 #endif
   }
-  float size = area/(p.z*p.z);
-  irradiance = vec4(size*matte, 0);
+  vec2 size = min(cell/p.z, steep);
+  irradiance = vec4(clamp(matte*size.x*size.y, -bright, bright), 0);
 #ifdef GLOSS
-  gloss = vec4(size*glossy, 0);
+  gloss = vec4(clamp(glossy*size.x*size.y, -bright, bright), 0);
 #endif
 }

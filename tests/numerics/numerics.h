@@ -8,17 +8,23 @@
  *
  * Allowed are 1e-9 for reference and closed, whose tolerance is left at 1e-6; the tolerance, 1e-2
  * to 1e-8, for auto and cut; for the others what they predict (gathered.error), and anything
- * finite, not negative, where they predict nothing. */
+ * finite, not negative, where they predict nothing.
+ *
+ * The methods views and gl are held against the sum over views, which they are, in rows that
+ * compare with light: allowed is 1e-5 beside what rounding the receiver and directions to floats
+ * could do (oracle_view), where that is less than 1e-3 of the light; where it is more, anything
+ * finite, not negative. gl is not in rows about the integral or about how others get it. */
 #ifndef NUMERICS_H
 #define NUMERICS_H
 
 #define receiver test_receiver /* gather.h has another */
 #include "render/helpers.h"
 #undef receiver
-#include "gather.h"
+#include "gl_gather.h"
 #include "render/oracle.h"
 
-enum { NUMERICS_ROWS_MAX = 40 };
+/* All of gather.h, gl the last. */
+enum { NUMERICS_ROWS_MAX = 40, NUMERICS_METHODS = GATHER_GL + 1 };
 
 /* Less light than this of what the lamp could send from all directions is none. */
 #define NUMERICS_DARK 1e-30
@@ -35,7 +41,7 @@ struct tally {
 /* One seed of a row. */
 struct trial {
   uint32_t seed, start; /* the random numbers' next; what it began with */
-  struct tally *tally;  /* [GATHER_METHODS] */
+  struct tally *tally;  /* [NUMERICS_METHODS] */
   bool verbose;         /* print what is not allowed */
 };
 
@@ -59,22 +65,41 @@ struct lamp {
   struct slab slab; /* as made; owned */
   struct light light;
   struct gather_aids levels, trees;
-  double most;       /* the most that it could send, times the height squared */
-  double hemisphere; /* and from all directions at once */
-  bool positive;     /* no sample is negative */
+  double most;          /* the most that it could send, times the height squared */
+  double hemisphere;    /* and from all directions at once */
+  bool positive;        /* no sample is negative */
+  struct gl_gather *gl; /* made when it is first asked for; owned */
 };
 void lamp_open(struct lamp *lamp, const struct slab *slab); /* takes the slab over */
 void lamp_close(struct lamp *lamp);
+/* Counts: NULL allowed. Not for gl. */
 void lamp_sum(const struct lamp *lamp, enum gather_method method, double tolerance,
               const struct test_receiver *receiver, struct gathered *gathered,
-              struct gather_counts *counts); /* counts: NULL allowed */
+              struct gather_counts *counts);
 
 /* By the method paper. */
 void lamp_sum_random(const struct lamp *lamp, uint64_t seed, const struct test_receiver *receiver,
                      struct gathered *gathered);
 
+/* ---- gl.c */
+
+/* Is there OpenGL, for this process? If not, `why` says what is missing. */
+bool gl_is_here(const char **why);
+/* False where there is none, or it refuses the lamp's lengths, as it should. */
+bool lamp_sum_gl(struct lamp *lamp, const struct test_receiver *receiver, double rgb[3]);
+/* What they may err relative to the light: INFINITY where nothing is claimed. */
+double gl_allowed(const struct lamp *lamp, const struct test_receiver *receiver);
+/* Holds views and gl against the sum over views. */
+void trial_hold_views(struct trial *trial, struct lamp *lamp, const struct test_receiver *receiver);
+
+/* By any method, its tolerance 1e-3: false as lamp_sum_gl. */
+bool lamp_sum_any(struct lamp *lamp, int method, const struct test_receiver *receiver,
+                  double rgb[3]);
+
+/* ---- */
+
 /* Holds all methods against the oracle. */
-void trial_hold(struct trial *trial, const struct lamp *lamp, const struct test_receiver *receiver);
+void trial_hold(struct trial *trial, struct lamp *lamp, const struct test_receiver *receiver);
 /* Or against values of another one. */
 void trial_hold_value(struct trial *trial, const struct lamp *lamp,
                       const struct test_receiver *receiver, const struct oracle_value *exact);
@@ -86,8 +111,8 @@ void oracle_spread(const struct slab *slab, const struct test_receiver *receiver
 double method_rounding(enum gather_method method);
 
 /* The table as text and HTML (report.c); returns how many cells miss. */
-int report_print(const struct tally table[][GATHER_METHODS], double seconds);
-bool report_write(const char *path, const struct tally table[][GATHER_METHODS], double seconds);
+int report_print(const struct tally table[][NUMERICS_METHODS], double seconds);
+bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS], double seconds);
 
 /* The rows (rows_*.c). */
 void row_distance(struct trial *trial);

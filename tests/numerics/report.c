@@ -7,7 +7,7 @@
 /* As text: the largest error; in parentheses where nothing is claimed of it; for methods that
  * claim what they predict, or a tolerance, its largest share of that. */
 static const char *cell(enum gather_method method, const struct tally *tally, char text[32]) {
-  bool exact = method == GATHER_REFERENCE || method == GATHER_CLOSED;
+  bool exact = method == GATHER_REFERENCE || method == GATHER_CLOSED || method == GATHER_GL;
   if (tally->values == 0)
     text[0] = 0;
   else if (tally->stated == 0)
@@ -19,16 +19,24 @@ static const char *cell(enum gather_method method, const struct tally *tally, ch
   return text;
 }
 
-int report_print(const struct tally table[][GATHER_METHODS], double seconds) {
+/* gl is the last one, and left out where there is no OpenGL. */
+static int count_methods(const struct tally table[][NUMERICS_METHODS]) {
+  for (int row = 0; row < numerics_row_count; ++row)
+    if (table[row][GATHER_GL].values > 0) return NUMERICS_METHODS;
+  return GATHER_GL;
+}
+
+int report_print(const struct tally table[][NUMERICS_METHODS], double seconds) {
+  const int methods = count_methods(table);
+  const char *why;
   int missed = 0;
   uint64_t values = 0, stated = 0;
   printf("%-17s", "");
-  for (int k = 0; k < GATHER_METHODS; ++k)
-    printf(" %10.10s", gather_method_name((enum gather_method)k));
+  for (int k = 0; k < methods; ++k) printf(" %10.10s", gather_method_name((enum gather_method)k));
   printf("\n");
   for (int row = 0; row < numerics_row_count; ++row) {
     printf("%-17s", numerics_rows[row].name);
-    for (int k = 0; k < GATHER_METHODS; ++k) {
+    for (int k = 0; k < methods; ++k) {
       char text[32];
       printf(" %10s", cell((enum gather_method)k, &table[row][k], text));
       missed += !(table[row][k].share <= 1);
@@ -38,7 +46,7 @@ int report_print(const struct tally table[][GATHER_METHODS], double seconds) {
     printf("\n");
   }
   for (int row = 0; row < numerics_row_count; ++row)
-    for (int k = 0; k < GATHER_METHODS; ++k) {
+    for (int k = 0; k < methods; ++k) {
       const struct tally *tally = &table[row][k];
       if (!(tally->share <= 1))
         printf(
@@ -46,6 +54,7 @@ int report_print(const struct tally table[][GATHER_METHODS], double seconds) {
             numerics_rows[row].name, gather_method_name((enum gather_method)k), tally->error,
             tally->share, numerics_rows[row].name, tally->seed);
     }
+  if (!gl_is_here(&why)) printf("no column gl: %s\n", why);
   printf("%llu values, %llu of them with an error stated; %d cells missed; %.0f s\n",
          (unsigned long long)values, (unsigned long long)stated, missed, seconds);
   return missed;
@@ -60,24 +69,27 @@ static const char head[] =
     "</style>\n<h1>Hard cases</h1>\n";
 
 static const char legend[] =
-    "<p><b>reference</b>, <b>closed</b>: the largest relative error; 1e-9 is allowed. "
+    "<p><b>reference</b>, <b>closed</b>: the largest relative error; 1e-9 is allowed. <b>gl</b>: "
+    "of "
+    "the sum over views; 1e-5 and what rounding to floats does are. "
     "<b>0.2x</b>: the largest error as a share of what the method predicts, or of the tolerance. "
     "(In parentheses): the largest error of a method that claims none; it must be finite, and not "
     "negative. Below each: values compared.</p>\n";
 
-bool report_write(const char *path, const struct tally table[][GATHER_METHODS], double seconds) {
+bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS], double seconds) {
+  const int methods = count_methods(table);
   FILE *file = fopen(path, "w");
   if (!file) {
     perror(path);
     return false;
   }
   fprintf(file, "%s%s<table>\n<tr><th>", head, legend);
-  for (int k = 0; k < GATHER_METHODS; ++k)
+  for (int k = 0; k < methods; ++k)
     fprintf(file, "<th>%s", gather_method_name((enum gather_method)k));
   for (int row = 0; row < numerics_row_count; ++row) {
     const struct numerics_row *about = &numerics_rows[row];
     fprintf(file, "\n<tr><td>%s<small>%s; by %s</small>", about->name, about->text, about->oracle);
-    for (int k = 0; k < GATHER_METHODS; ++k) {
+    for (int k = 0; k < methods; ++k) {
       const struct tally *tally = &table[row][k];
       char text[32];
       const char *class = tally->share > 1 ? "missed" : tally->stated > 0 ? "held" : "";

@@ -14,7 +14,7 @@
 
 #include "numerics.h"
 
-typedef struct tally table[NUMERICS_ROWS_MAX][GATHER_METHODS];
+typedef struct tally table[NUMERICS_ROWS_MAX][NUMERICS_METHODS];
 
 /* A seed's random numbers are those of its row's, too. */
 static void run(int row, uint32_t seed, struct tally *tally, bool verbose) {
@@ -25,7 +25,7 @@ static void run(int row, uint32_t seed, struct tally *tally, bool verbose) {
 
 static void merge(const table from, table to) {
   for (int row = 0; row < numerics_row_count; ++row)
-    for (int k = 0; k < GATHER_METHODS; ++k) {
+    for (int k = 0; k < NUMERICS_METHODS; ++k) {
       const struct tally *a = &from[row][k];
       struct tally *b = &to[row][k];
       if (a->share > b->share || (b->share == 0 && a->error > b->error)) b->seed = a->seed;
@@ -43,7 +43,7 @@ static void test_row(void **state) {
   const int row = *(const int *)*state;
   memset(few, 0, sizeof few);
   for (uint32_t seed = 0; seed < 3; ++seed) run(row, seed, few[row], false);
-  for (int k = 0; k < GATHER_METHODS; ++k) {
+  for (int k = 0; k < NUMERICS_METHODS; ++k) {
     const struct tally *tally = &few[row][k];
     if (!(tally->share <= 1))
       fail_msg("%s by %s: error %.3g, %.3g of what is allowed, seed %u", numerics_rows[row].name,
@@ -59,6 +59,8 @@ static int test(void) {
     tests[row] = (struct CMUnitTest)cmocka_unit_test_prestate(test_row, &rows[row]);
     tests[row].name = numerics_rows[row].name;
   }
+  const char *why;
+  if (!gl_is_here(&why)) print_message("# without gl: %s\n", why);
   for (int row = numerics_row_count; row < NUMERICS_ROWS_MAX; ++row) tests[row].name = NULL;
   return _cmocka_run_group_tests("numerics", tests, (size_t)numerics_row_count, NULL, NULL);
 }
@@ -89,23 +91,23 @@ static int sweep(int effort, int jobs, const char *path) {
   }
   int status, failed = 0;
   while (wait(&status) > 0) failed += status != 0;
-  for (int k = 0; k < jobs; ++k) merge((const struct tally(*)[GATHER_METHODS])parts[k], all);
+  for (int k = 0; k < jobs; ++k) merge((const struct tally(*)[NUMERICS_METHODS])parts[k], all);
   clock_gettime(CLOCK_MONOTONIC, &end);
   double seconds =
       (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
-  int missed = report_print((const struct tally(*)[GATHER_METHODS])all, seconds);
-  if (!report_write(path, (const struct tally(*)[GATHER_METHODS])all, seconds)) failed = 1;
+  int missed = report_print((const struct tally(*)[NUMERICS_METHODS])all, seconds);
+  if (!report_write(path, (const struct tally(*)[NUMERICS_METHODS])all, seconds)) failed = 1;
   return missed > 0 || failed > 0;
 }
 
 /* ---- One case again. */
 
 static int again(const char *name, const char *seed) {
-  static struct tally tally[GATHER_METHODS];
+  static struct tally tally[NUMERICS_METHODS];
   for (int row = 0; row < numerics_row_count; ++row) {
     if (strcmp(numerics_rows[row].name, name) != 0) continue;
     run(row, (uint32_t)strtoul(seed, NULL, 10), tally, true);
-    for (int k = 0; k < GATHER_METHODS; ++k)
+    for (int k = 0; k < NUMERICS_METHODS; ++k)
       if (tally[k].values > 0)
         printf("%-12s error %.3g, %.3g of what is allowed\n",
                gather_method_name((enum gather_method)k), tally[k].error, tally[k].share);

@@ -80,6 +80,7 @@ void lamp_open(struct lamp *lamp, const struct slab *slab) {
 }
 
 void lamp_close(struct lamp *lamp) {
+  gl_gather_free(lamp->gl);
   gather_aids_free(&lamp->levels);
   gather_aids_free(&lamp->trees);
   light_free(&lamp->light);
@@ -255,8 +256,8 @@ void trial_hold_value(struct trial *trial, const struct lamp *lamp,
   }
 }
 
-void trial_hold(struct trial *trial, const struct lamp *lamp,
-                const struct test_receiver *receiver) {
+void trial_hold(struct trial *trial, struct lamp *lamp, const struct test_receiver *receiver) {
   const struct oracle_value exact = oracle_irradiance(&lamp->slab, receiver->p, receiver->n);
   trial_hold_value(trial, lamp, receiver, &exact);
+  trial_hold_views(trial, lamp, receiver);
 }

@@ -56,6 +56,19 @@ long double oracle_lambert(const struct slab *slab, const double p[3], const dou
 void oracle_brute(const struct slab *slab, const double p[3], const double n[3], int count,
                   double rgb[3]);
 
+/* A receiver in the slab's own frame, from its centre. */
+struct oracle_place {
+  long double p[3], n[3]; /* n: unit */
+};
+void oracle_place(const struct slab *slab, const double p[3], const double n[3],
+                  struct oracle_place *place);
+
+/* What projective textures sum: the light of view i, j, all of it in the middle of its cell, where
+ * the ray's direction is looked up. With `error` not NULL, what roundings to single precision
+ * can change: of the receiver, the view's place and the direction, 2^-22 of each. */
+void oracle_view(const struct slab *slab, const struct oracle_place *place, int i, int j,
+                 long double rgb[3], long double error[3]);
+
 /* Unit vectors u', v', normal: rows of lamp space to the slab's own frame. */
 void oracle_frame(const struct slab *slab, long double frame[3][3]);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "helpers.h"
+#include "oracle.h"
 #include "slab_resample.h"
 #include "vector.h"
 
@@ -35,20 +36,16 @@ static bool meets(const struct screen *screen, const double from[3], const doubl
 /* Irradiance by one ray to the middle of each view's cell. */
 static void sum_views(const struct slab *slab, const struct receiver *receiver,
                       const struct screen *screen, double rgb[3]) {
-  const int *n = slab->samples;
-  double area = vector_length(slab->u) * vector_length(slab->v) / (n[SLAB_U] * n[SLAB_V]);
-  for (int j = 0; j < n[SLAB_V]; ++j)
-    for (int i = 0; i < n[SLAB_U]; ++i) {
-      double a = slab_position(slab, SLAB_U, i), b = slab_position(slab, SLAB_V, j);
-      double point[3], ray[3], abst[4], light[3];
-      slab_point(slab, a, b, 0, point);
-      vector_subtract(receiver->p, point, ray);
-      double r2 = vector_dot(ray, ray), in = -vector_dot(ray, receiver->n);
-      if (!slab_ray(slab, point, ray, abst) || in <= 0) continue;
+  struct oracle_place place;
+  oracle_place(slab, receiver->p, receiver->n, &place);
+  for (int j = 0; j < slab->samples[SLAB_V]; ++j)
+    for (int i = 0; i < slab->samples[SLAB_U]; ++i) {
+      double point[3];
+      long double light[3];
+      slab_point(slab, slab_position(slab, SLAB_U, i), slab_position(slab, SLAB_V, j), 0, point);
       if (screen && meets(screen, receiver->p, point)) continue;
-      slab_lookup(slab, a, b, abst[2], abst[3], light);
-      for (int c = 0; c < 3; ++c)
-        rgb[c] += area * light[c] * in * vector_dot(ray, slab->normal) / (r2 * r2);
+      oracle_view(slab, &place, i, j, light, NULL);
+      for (int c = 0; c < 3; ++c) rgb[c] += (double)light[c];
     }
 }
 
