@@ -60,6 +60,12 @@ void cut_error_scratch_free(struct cut_error_scratch *scratch) {
   free(scratch);
 }
 
+/* Whether weights, moved by so many samples, stay in the window: where a place rounds otherwise
+ * than another they may have a sample more, which weighs next to nothing. */
+static bool fit(const struct weights *weights, int by, int far_count) {
+  return weights->first + by >= 0 && weights->first + weights->count + by <= far_count;
+}
+
 /* The weights of `part`, as shares of `node`. */
 static void find_weights(const struct light_axis *axis, const struct cut_interval *node,
                          const struct cut_interval *part, double rate, double offset,
@@ -75,7 +81,7 @@ static void find_weights(const struct light_axis *axis, const struct cut_interva
     struct cut_taps taps;
     sight.place = k + shift;
     bool inside = sight.place - reach >= 0 && sight.place + reach < axis->far_count - 1;
-    if (n > 0 && inside && same) {
+    if (n > 0 && inside && same && fit(&weights[middle], k - middle, axis->far_count)) {
       weights[k] = weights[middle];
       weights[k].first += k - middle;
       continue;
