@@ -72,8 +72,9 @@ enum slab_result lamp_reads_collect(const char *directory, const char *script, c
                                     struct lamp_reads *reads, struct slab_error *error) {
   *reads = (struct lamp_reads){0};
   char *own = realpath(directory, NULL);
-  char *text = files_read(directory, "reads.txt");
-  enum slab_result result = own ? SLAB_OK : slab_fail(error, SLAB_MEMORY, "out of memory");
+  char *text = own ? files_read(directory, "reads.txt") : NULL;
+  enum slab_result result = SLAB_OK;
+  if (!own || (!text && errno == ENOMEM)) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   char *rest = text;
   for (char *path; own && !result && rest && *rest && (path = strsep(&rest, "\n"));)
     if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&

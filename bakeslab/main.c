@@ -20,7 +20,8 @@ static const struct cli_program bakeslab = {
     .examples = "  bakeslab bake lamps/parabolic.pov -o lamp.tif\n"
                 "  bakeslab info lamp.tif\n"
                 "  bakeslab include lamp.tif -o lamp.inc\n",
-    .exit_status = "0 done, 1 failed, 2 usage; diff: 0 same, 1 differ, 2 trouble"};
+    .exit_status = "0 done, 1 failed, 2 usage; diff: 0 same, 1 differ, 2 trouble",
+    .compares = "diff"};
 
 int main(int argc, char **argv) {
   return cli_main(&bakeslab, argc, argv);

@@ -166,6 +166,7 @@ static enum slab_result add_file(struct slab_arguments *arguments, const char *p
     return slab_fail(error, SLAB_BAD, "%s@%s: files name files more than %d deep", where.text, path,
                      MAX_DEPTH);
   struct reader reader = {.path = path, .file = fopen(path, "re"), .line = 1};
+  if (!reader.file && errno == ENOMEM) return no_memory(error);
   if (!reader.file)
     return slab_fail(error, SLAB_IO, "%s@%s: %s", where.text, path, strerror(errno));
   enum slab_result result = add_words(arguments, &reader, depth, error);

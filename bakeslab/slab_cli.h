@@ -35,6 +35,7 @@ struct cli_program {
   const struct cli_command *commands; /* up to one without a name */
   const char *examples;               /* lines, indented by two blanks; NULL: none */
   const char *exit_status;            /* what the statuses mean, one line */
+  const char *compares;               /* the command that fails with 2, not 1; NULL: none */
 };
 
 /* Expands @FILE arguments (slab_arguments.h), then runs the command that argv[1] names,
@@ -61,6 +62,9 @@ extern const struct argp_child cli_options[];
 
 /* argp_parse with a command's arguments; ends the program where it has no memory. */
 void cli_parse(const struct argp *argp, int argc, char **argv, void *input);
+
+/* Where there is no memory to keep an argument: says so and ends the program as failed. */
+void cli_out_of_memory(void) __attribute__((noreturn));
 
 /* Whether -q was given: no notes and no progress. */
 bool cli_quiet(void);

@@ -7,6 +7,13 @@
 #include "slab_arguments.h"
 #include "slab_cli.h"
 
+static int failed = CLI_FAILED; /* exit status of the command where it fails */
+
+void cli_out_of_memory(void) {
+  cli_complain("out of memory");
+  exit(failed);
+}
+
 static void print_help(const struct cli_program *program) {
   printf("Usage: %s COMMAND [OPTION...] ARGUMENT...\n%s\n\n", program->name, program->summary);
   for (const struct cli_command *command = program->commands; command->name; ++command)
@@ -27,6 +34,10 @@ static const struct cli_command *find_command(const struct cli_program *program,
   return NULL;
 }
 
+static void set_failed(const struct cli_program *program, const char *command) {
+  if (program->compares && !strcmp(command, program->compares)) failed = 2;
+}
+
 static int unknown(const struct cli_program *program, const char *name) {
   cli_complain("%s: no such command; see %s --help", name, program->name);
   return CLI_USAGE;
@@ -38,6 +49,7 @@ static int run_command(const struct cli_program *program, const struct cli_comma
   char name[64], *called = argv[0];
   snprintf(name, sizeof name, "%s %s", program->name, command->name);
   argv[0] = name;
+  set_failed(program, command->name);
   int status = command->run(argc, argv);
   argv[0] = called;
   return status;
@@ -87,7 +99,12 @@ int cli_main(const struct cli_program *program, int argc, char **argv) {
   cli_set_command_line(program->name, argc, argv);
   enum slab_result result = slab_arguments_expand(argc, argv, &arguments, &error);
   if (!result && !cli_set_command_line(program->name, arguments.count, arguments.words))
-    result = slab_fail(&error, SLAB_MEMORY, "out of memory");
+    result = SLAB_MEMORY;
+  if (result == SLAB_MEMORY) {
+    const char *command = arguments.count > 1 ? arguments.words[1] : argc > 1 ? argv[1] : "";
+    set_failed(program, command);
+    cli_out_of_memory();
+  }
   if (result) {
     cli_complain("%s", error.text);
     status = CLI_USAGE;

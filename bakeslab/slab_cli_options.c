@@ -57,9 +57,7 @@ static const struct argp common = {.options = common_options, .parser = parse_co
 const struct argp_child cli_options[] = {{&common, 0, NULL, 0}, {0}};
 
 void cli_parse(const struct argp *argp, int argc, char **argv, void *input) {
-  if (argp_parse(argp, argc, argv, 0, NULL, input) == 0) return;
-  cli_complain("out of memory");
-  exit(CLI_USAGE); /* 1 may mean something to the command */
+  if (argp_parse(argp, argc, argv, 0, NULL, input) != 0) cli_out_of_memory();
 }
 
 bool cli_quiet(void) {

@@ -188,8 +188,13 @@ static enum slab_result load_object(const struct slab *slab, json_t **root,
   return slab_fail(error, SLAB_BAD, "the JSON text is not an object");
 }
 
+/* jansson leaves a key out whose text found no memory, and goes on. */
 static char *dump(const json_t *value) {
-  return json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  unsigned long before = lost;
+  char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  if (lost == before) return text;
+  free(text);
+  return NULL;
 }
 
 /* A whole number is written without a fraction: 1, not 1.0. */

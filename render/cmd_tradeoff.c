@@ -51,8 +51,9 @@ enum { WIDTH = 160, HEIGHT = 120 };
 
 static void parse_methods(const char *text, struct arguments *arguments, struct argp_state *state) {
   char *names = strdup(text), *rest = names, *name;
+  if (!names) cli_out_of_memory();
   memset(arguments->methods, 0, sizeof arguments->methods);
-  while (names && (name = strsep(&rest, ","))) {
+  while ((name = strsep(&rest, ","))) {
     enum gather_method method = GATHER_AUTO;
     if (!gather_method_parse(name, &method))
       argp_error(state, "--methods %s: there is no method '%s'", text, name);

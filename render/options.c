@@ -82,10 +82,7 @@ static void parse_method(const char *name, struct options *options, struct argp_
 static void add_light(const char *text, struct options *options) {
   size_t room = sizeof *options->lights * ((size_t)options->light_count + 1);
   const char **lights = realloc(options->lights, room);
-  if (!lights) {
-    cli_complain("out of memory");
-    exit(CLI_USAGE);
-  }
+  if (!lights) cli_out_of_memory();
   options->lights = lights;
   options->lights[options->light_count++] = text;
 }

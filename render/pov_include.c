@@ -51,9 +51,11 @@ static enum slab_result read_include(const struct light *light, struct pov_inclu
     return slab_fail(error, SLAB_BAD, "%s: is not there; make it by: bakeslab include %s -o %s",
                      path, light->path, path);
   if (!file) return slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
-  bool found = find_macro(file, include->name);
+  bool found = find_macro(file, include->name), whole = found || feof(file);
+  int why = errno;
   fclose(file);
   if (found) return SLAB_OK;
+  if (!whole) return slab_fail(error, SLAB_IO, "%s: %s", path, strerror(why));
   return slab_fail(error, SLAB_BAD,
                    "%s: declares no lamp; make it again by: bakeslab include %s -o %s", path,
                    light->path, path);

@@ -82,6 +82,8 @@ static enum slab_result read_header(struct ply *ply, struct slab_error *error) {
     ended = strcmp(line, "end_header") == 0;
     if (!ended) result = read_header_line(ply, line, error);
   }
+  if (!result && !ended && !feof(ply->file))
+    result = slab_fail(error, SLAB_IO, "%s: %s", ply->path, strerror(errno));
   free(line);
   if (!result && !ended)
     result = slab_fail(error, SLAB_BAD, "%s: cannot be read as a mesh: its header has no end",

@@ -41,7 +41,7 @@ static enum slab_result read_lines(struct scene_loading *loading, const char *pa
     split(text, &line);
     result = reader(loading, &line, error);
   }
-  if (!result && ferror(file)) result = slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
+  if (!result && !feof(file)) result = slab_fail(error, SLAB_IO, "%s: %s", path, strerror(errno));
   free(text);
   fclose(file);
   return result;

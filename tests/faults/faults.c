@@ -1,6 +1,6 @@
 /* faults.c - every command, with memory that runs out at the n-th allocation and disks that are
  * full from the n-th write on, or only at it. Whatever happens, a command either does all that
- * it does undisturbed, or fails: exit status 1 (2 for diff), one line on stderr that begins with
+ * it does undisturbed, or fails: exit status 1 (only diff: 2), one line on stderr that begins with
  * its name, and each file as it was or whole; a bake then goes on to the same slab.
  *
  *   faults NAME...      the commands of faults_commands.h so called, or all of a program
@@ -216,8 +216,7 @@ static const char *judge(const struct faults_command *command, const struct run 
     if (!same(&run->left, &whole->left)) return "succeeded with other files";
     return run->left.output == whole->left.output ? NULL : "succeeded with another output";
   }
-  bool early = run->status == 2 && strstr(run->line, "memory"); /* reading arguments */
-  if (!early && run->status != (command->fails_with ? command->fails_with : 1))
+  if (run->status != (command->fails_with ? command->fails_with : 1))
     return "has another exit status";
   if (!is_old_or_new(&run->left, before, &whole->left, command->together))
     return "failed, and left files that are neither old nor whole";
