@@ -15,7 +15,7 @@
  * Where that takes more than all views at once (cut_views.h), and these are exact enough, they are
  * summed instead: so it is near the aperture. The micro lights do it, and cut_sum returns false,
  * for glossy receivers, where the tangent plane cuts the aperture, and at the aperture, where
- * neither is exact enough or any faster. Finding that out can cost a fifth of the micro lights. All
+ * neither is exact enough or any faster. Finding that out costs a few percent of the micro lights. All
  * of them keep the tolerance, so nothing is seen where one hands over to another.
  *
  * The error of a page's light: the largest of the channels' absolute errors, relative to the

@@ -32,7 +32,6 @@ struct gather {
   struct visible visible;
   struct cut_work *cut; /* NULL until it is needed; owned */
   struct cut_counts cut_counts;
-  int cut_asked, cut_taken; /* receivers of this tile and page */
   struct {
     int receiver;
     double irradiance[3];
@@ -309,12 +308,6 @@ static void note_error(struct gather *gather, const struct look *look, double er
   gather->counts.error = fmax(gather->counts.error, error);
 }
 
-/* Asking the cut costs a part of what the micro lights do: where it took less than one of four
- * neighbours, the others of the tile do not ask. */
-static bool cut_is_hopeless(const struct gather *gather) {
-  return gather->cut_asked >= 4 && 4 * gather->cut_taken < gather->cut_asked;
-}
-
 static void add_cuts(struct gather *gather, double gain, struct gathered *gathered) {
   static const double gloss[3];
   if (gather->cut) cut_finish(gather->cut);
@@ -327,15 +320,13 @@ static void add_cuts(struct gather *gather, double gain, struct gathered *gather
 static bool take_cut(struct gather *gather, const struct look *look, const struct view *view,
                      struct gathered *gathered) {
   const struct gather_aids *aids = gather->settings->aids;
-  if (!aids || !aids->trees || cut_is_hopeless(gather)) return false;
+  if (!aids || !aids->trees) return false;
   if (!gather->cut) gather->cut = cut_work_make();
   if (!gather->cut) return false; /* no memory: the micro lights need less */
   if (gather->by_cut_count == TOGETHER) add_cuts(gather, look->light->gain, gathered);
-  ++gather->cut_asked;
   if (!cut_sum(aids->trees[look->page_number], view, gather->settings->tolerance, 0, gather->cut,
                gather->by_cut[gather->by_cut_count].irradiance, &gather->cut_counts))
     return false;
-  ++gather->cut_taken;
   gather->by_cut[gather->by_cut_count++].receiver = look->index;
   note_error(gather, look, gather->cut_counts.error, gathered);
   return true;
@@ -421,7 +412,6 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
   for (int l = 0, number = 0; l < settings->light_count; ++l) {
     const struct light *light = &settings->lights[l];
     for (int page = 0; page < light->count && result == SLAB_OK; ++page, ++number) {
-      gather->cut_asked = gather->cut_taken = 0;
       bool shadows = find_shadows(gather, &light->pages[page], receivers, count);
       for (int k = 0; k < count && result == SLAB_OK; ++k) {
         const struct look look = {light, &light->pages[page], number, shadows, &receivers[k], k};

@@ -96,7 +96,7 @@ void gather_free(struct gather *gather); /* NULL allowed */
 const struct gather_counts *gather_counts(const struct gather *gather);
 
 /* What `count` receivers gather; fast where they lie near each other (a tile). The result for
- * a receiver does not depend on the others. */
+ * a receiver does not depend on the others, to the last bit. */
 enum slab_result gather_light(struct gather *gather, const struct receiver *receivers, int count,
                               struct gathered *gathered, struct slab_error *error);
 

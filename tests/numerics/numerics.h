@@ -81,6 +81,11 @@ void lamp_sum(const struct lamp *lamp, enum gather_method method, double toleran
 void lamp_sum_random(const struct lamp *lamp, uint64_t seed, const struct test_receiver *receiver,
                      struct gathered *gathered);
 
+struct receiver lamp_receiver(const struct test_receiver *from);
+/* Of the settings those that are no lamp's: method, tolerance, occlusion. */
+void lamp_sum_many(const struct lamp *lamp, const struct gather_settings *settings,
+                   const struct receiver *receivers, int count, struct gathered *gathered);
+
 /* ---- gl.c */
 
 /* Is there OpenGL, for this process? If not, `why` says what is missing. */
@@ -137,6 +142,7 @@ void row_powers(struct trial *trial);
 void row_units(struct trial *trial);
 void row_symmetry(struct trial *trial);
 void row_superposition(struct trial *trial);
+void row_neighbours(struct trial *trial);
 void row_switches(struct trial *trial);
 void row_strips(struct trial *trial);
 void row_single(struct trial *trial);

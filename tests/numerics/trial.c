@@ -87,42 +87,52 @@ void lamp_close(struct lamp *lamp) {
   slab_free(&lamp->slab);
 }
 
-static void sum(const struct lamp *lamp, enum gather_method method, double tolerance, uint64_t seed,
-                const struct test_receiver *from, struct gathered *gathered,
+/* Counts: NULL allowed. */
+static void sum(const struct lamp *lamp, const struct gather_settings *wanted,
+                const struct receiver *receivers, int count, struct gathered *gathered,
                 struct gather_counts *counts) {
   struct slab_error error = {{0}};
+  struct gather_settings settings = *wanted;
   struct gather *gather;
-  struct receiver receiver = {.index = 0};
-  bool levels = method == GATHER_LEVELS || method == GATHER_PAPER_LEVELS;
-  const struct gather_settings settings = {.lights = &lamp->light,
-                                           .light_count = 1,
-                                           .aids = levels                 ? &lamp->levels
-                                                   : method == GATHER_CUT ? &lamp->trees
-                                                                          : NULL,
-                                           .method = method,
-                                           .tolerance = tolerance,
-                                           .level = -1,
-                                           .seed = seed};
-  *gathered = (struct gathered){0};
-  memcpy(receiver.position, from->p, sizeof receiver.position);
-  memcpy(receiver.normal, from->n, sizeof receiver.normal);
-  memcpy(receiver.lift, from->n, sizeof receiver.lift);
+  settings.lights = &lamp->light;
+  settings.light_count = 1;
+  settings.level = -1;
+  if (settings.method == GATHER_LEVELS || settings.method == GATHER_PAPER_LEVELS)
+    settings.aids = &lamp->levels;
+  if (settings.method == GATHER_CUT) settings.aids = &lamp->trees;
   if (gather_create(&settings, &gather, &error) != SLAB_OK ||
-      gather_light(gather, &receiver, 1, gathered, &error) != SLAB_OK)
+      gather_light(gather, receivers, count, gathered, &error) != SLAB_OK)
     fail_msg("%s", error.text);
   if (counts) *counts = *gather_counts(gather);
   gather_free(gather);
 }
 
-void lamp_sum(const struct lamp *lamp, enum gather_method method, double tolerance,
-              const struct test_receiver *receiver, struct gathered *gathered,
-              struct gather_counts *counts) {
-  sum(lamp, method, tolerance, 0, receiver, gathered, counts);
+struct receiver lamp_receiver(const struct test_receiver *from) {
+  struct receiver receiver = {.index = 0};
+  memcpy(receiver.position, from->p, sizeof receiver.position);
+  memcpy(receiver.normal, from->n, sizeof receiver.normal);
+  memcpy(receiver.lift, from->n, sizeof receiver.lift);
+  return receiver;
 }
 
-void lamp_sum_random(const struct lamp *lamp, uint64_t seed, const struct test_receiver *receiver,
+void lamp_sum(const struct lamp *lamp, enum gather_method method, double tolerance,
+              const struct test_receiver *from, struct gathered *gathered,
+              struct gather_counts *counts) {
+  const struct receiver receiver = lamp_receiver(from);
+  const struct gather_settings settings = {.method = method, .tolerance = tolerance};
+  sum(lamp, &settings, &receiver, 1, gathered, counts);
+}
+
+void lamp_sum_random(const struct lamp *lamp, uint64_t seed, const struct test_receiver *from,
                      struct gathered *gathered) {
-  sum(lamp, GATHER_PAPER, 1e-6, seed, receiver, gathered, NULL);
+  const struct receiver receiver = lamp_receiver(from);
+  const struct gather_settings settings = {.method = GATHER_PAPER, .tolerance = 1e-6, .seed = seed};
+  sum(lamp, &settings, &receiver, 1, gathered, NULL);
+}
+
+void lamp_sum_many(const struct lamp *lamp, const struct gather_settings *settings,
+                   const struct receiver *receivers, int count, struct gathered *gathered) {
+  sum(lamp, settings, receivers, count, gathered, NULL);
 }
 
 /* ---- The oracle. */
