@@ -382,7 +382,7 @@ static enum slab_result find_floor(const struct patch *patch, const struct light
 enum slab_result slab_floor_estimate(const struct slab *slab, int count, const double *distances,
                                      struct slab_floor *floors, struct slab_error *error) {
   struct light lights[LIGHTS] = {0};
-  struct extent extent;
+  struct extent extent = {0};
   double(*e)[SIDE * SIDE] = malloc(LIGHTS * sizeof *e);
   enum slab_result result =
       e ? make_lights(slab, lights, error) : slab_fail(error, SLAB_MEMORY, "out of memory");

@@ -37,7 +37,7 @@ struct aiScene;
 enum slab_result scene_text_read(struct scene_loading *loading, struct slab_error *error);
 
 /* Refuses a PLY file that ends too early: assimp would look for the end of the header for
- * ever, and read binary data beyond the end of the file. */
+ * ever, read binary data beyond the end of the file, and make room for whatever is claimed. */
 enum slab_result scene_ply_check(const char *path, struct slab_error *error);
 
 /* The MTL material of that name, or NULL. */

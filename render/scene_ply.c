@@ -1,4 +1,5 @@
 /* scene_ply.c - is a PLY file whole? See scene_load.h. */
+#include <ctype.h>
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -101,9 +102,31 @@ static bool skip(struct ply *ply, unsigned long long bytes) {
   return true;
 }
 
+/* Skips a word of a text; as a number, 0 where it is none. */
+static bool skip_word(FILE *file, unsigned long long *number) {
+  char word[32];
+  size_t length = 0;
+  int c = getc_unlocked(file);
+  while (c != EOF && isspace(c)) c = getc_unlocked(file);
+  for (; c != EOF && !isspace(c); c = getc_unlocked(file))
+    if (length < sizeof word - 1) word[length++] = (char)c;
+  word[length] = 0;
+  *number = strtoull(word, NULL, 10);
+  return length > 0;
+}
+
+static bool skip_text(struct ply *ply, const struct ply_property *property) {
+  unsigned long long count = 0, number;
+  if (!skip_word(ply->file, &count)) return false;
+  for (; property->count_size > 0 && count > 0; --count)
+    if (!skip_word(ply->file, &number)) return false;
+  return true;
+}
+
 static bool skip_property(struct ply *ply, const struct ply_property *property) {
   unsigned char bytes[8];
   uint64_t count = 0;
+  if (!ply->binary) return skip_text(ply, property);
   if (property->count_size == 0) return skip(ply, property->size);
   if (fread(bytes, 1, property->count_size, ply->file) != property->count_size) return false;
   for (size_t k = 0; k < property->count_size; ++k)
@@ -111,11 +134,15 @@ static bool skip_property(struct ply *ply, const struct ply_property *property) 
   return count <= UINT32_MAX && skip(ply, count * property->size);
 }
 
-/* Text is left to assimp, which notices when it ends. */
+/* Of text too: assimp makes room for all elements that the header claims. */
 static enum slab_result skip_data(struct ply *ply, struct slab_error *error) {
-  for (int e = 0; e < ply->elements && ply->binary; ++e) {
+  for (int e = 0; e < ply->elements; ++e) {
     const struct ply_element *element = &ply->element[e];
-    for (unsigned long long k = 0; k < element->count && element->properties > 0; ++k)
+    if (element->count > 0 && element->properties == 0)
+      return slab_fail(error, SLAB_BAD,
+                       "%s: cannot be read as a mesh: element %d has no properties", ply->path,
+                       e + 1);
+    for (unsigned long long k = 0; k < element->count; ++k)
       for (int p = 0; p < element->properties; ++p)
         if (!skip_property(ply, &element->property[p]))
           return slab_fail(error, SLAB_BAD, "%s: is cut off: element %llu of %llu is not whole",

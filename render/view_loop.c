@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "preview.h"
-#include "slab_cli.h"
 #include "slab_progress.h"
 #include "view_camera.h"
 #include "view_status.h"
@@ -31,7 +30,7 @@ struct view_loop {
   double share;   /* of the views that a frame adds */
   double seconds; /* of the last frame that added views */
   double white;
-  bool unsaved; /* a picture could not be saved */
+  struct slab_error unsaved; /* why the first picture that could not be saved was not */
   char news[sizeof(struct slab_error) + 32];
 };
 
@@ -142,8 +141,7 @@ static void save_if_asked(struct view_loop *loop) {
   if (loop->picture.done < 1) return;
   loop->state.save = false;
   if (save(loop, &error) == SLAB_OK) return;
-  loop->unsaved = true;
-  cli_complain("%s", error.text);
+  if (!loop->unsaved.text[0]) loop->unsaved = error;
   snprintf(loop->news, sizeof loop->news, "not saved: %s", error.text);
 }
 
@@ -181,8 +179,8 @@ static enum slab_result look(struct view_loop *loop, struct slab_error *error) {
     view_window_events(loop->window, loop->picture.done >= 1 && !loop->keys);
     press_key(loop);
   }
-  if (result == SLAB_OK && loop->unsaved)
-    result = slab_fail(error, SLAB_IO, "not all pictures could be saved");
+  if (result == SLAB_OK && loop->unsaved.text[0])
+    result = slab_fail(error, SLAB_IO, "%s", loop->unsaved.text);
   return result;
 }
 

@@ -15,6 +15,10 @@ struct faults_command {
   bool goes_on;        /* keeps finished work where it fails */
   int cost;            /* one in so many faults is tried; 0: all */
   bool together;       /* the outputs are of use only with each other */
+  bool children;       /* writes of the programs that it runs fail, too */
+  bool timed;          /* its texts hold times: compared are what is no number */
+  const char *driver;  /* uses one, which takes memory for granted: only disks fail; skipped where
+                          it fails undisturbed with this word in its message */
 };
 
 static const struct faults_command faults_commands[] = {
@@ -36,6 +40,15 @@ static const struct faults_command faults_commands[] = {
     {.name = "convert-exr",
      .line = "bakeslab convert ../in/little.tif -o x.exr --uv 3 --precision half",
      .outputs = "x.exr"},
+    {.name = "convert-sharpen",
+     .line = "bakeslab convert ../in/little.tif -o x.tif --crop uv=0:1,0:2 --st 3 --sharpen st "
+             "--positive --precision half",
+     .outputs = "x.tif"},
+    {.name = "projector",
+     .line = "bakeslab projector ../in/four.ppm -o x.tif --aperture 1 --focus 2 --width 1 --uv 2",
+     .outputs = "x.tif",
+     .cost = 4,
+     .children = true},
     {.name = "convert-stdout", .line = "bakeslab convert ../in/little.tif -o -", .outputs = ""},
     {.name = "arguments", .line = "bakeslab @../in/arguments", .outputs = "x.tif"},
     {.name = "include-sheet",
@@ -52,18 +65,25 @@ static const struct faults_command faults_commands[] = {
      .outputs = "x.inc x.exr",
      .cost = 4,
      .together = true},
+    {.name = "include-auto",
+     .line = "bakeslab include ../in/little.tif --name lamp -m auto --tolerance 0.3 -o x.inc",
+     .outputs = "x.inc x.exr",
+     .cost = 40,
+     .together = true},
     {.name = "bake",
      .line = "bakeslab bake -q ../in/fake.pov -o x.tif --povray ../fake_povray --uv 3 --st 4 "
              "--rays 8 --jobs 2 --depend x.d",
      .outputs = "x.tif x.d",
      .goes_on = true,
-     .cost = 2},
+     .cost = 2,
+     .children = true},
     {.name = "bake-probe",
      .line = "bakeslab bake -q ../in/fake.pov -o x.exr --povray ../fake_povray --uv 2 --st 4 "
              "--rays 4 --effects probe --window auto --jobs 1",
      .outputs = "x.exr",
      .goes_on = true,
-     .cost = 16},
+     .cost = 16,
+     .children = true},
     {.name = "irradiance",
      .line = "renderslab irradiance --light ../in/little.tif --mesh ../in/square.obj --threads 2",
      .in = "../in/receivers",
@@ -72,6 +92,38 @@ static const struct faults_command faults_commands[] = {
      .line = "renderslab image -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
              "--size 8x6 --threads 2 -o x.exr --preview x.png",
      .outputs = "x.exr x.png"},
+    {.name = "image-stats",
+     .line = "renderslab image -q ../in/slide.obj --light ../in/little.tif --camera @../in/camera "
+             "--size 8x6 --method cut --threads 1 -o - --stats x.json",
+     .outputs = "x.json",
+     .cost = 8,
+     .children = true,
+     .timed = true},
+    {.name = "image-gl",
+     .line = "renderslab image -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
+             "--size 8x6 --method gl -o x.exr",
+     .outputs = "x.exr",
+     .cost = 20,
+     .driver = "OpenGL"},
+    {.name = "tradeoff",
+     .line = "renderslab tradeoff -q ../in/square.obj --light ../in/little.tif --camera "
+             "@../in/camera --size 8x6 --repeats 1 --finest 0.1 --methods pi,auto -o x.tsv",
+     .outputs = "x.tsv",
+     .cost = 4,
+     .timed = true},
+    {.name = "tradeoff-plot",
+     .line = "renderslab tradeoff -q ../in/square.obj --light ../in/little.tif --camera "
+             "@../in/camera --size 8x6 --repeats 1 --finest 0.1 --methods pi -o x.tsv --plot x.svg",
+     .outputs = "x.tsv x.svg",
+     .cost = 20,
+     .children = true,
+     .timed = true},
+    {.name = "view",
+     .line = "renderslab view -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
+             "--size 60x40 @../in/keys",
+     .outputs = "view-1.exr",
+     .cost = 20,
+     .driver = "display"},
     {.name = "pov",
      .line =
          "renderslab pov ../in/square.obj --light ../in/little.tif --camera @../in/camera -o x.pov",

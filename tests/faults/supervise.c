@@ -62,11 +62,24 @@ static bool is_rename(const struct seccomp_data *call) {
   return call->nr == SYS_renameat || call->nr == SYS_renameat2;
 }
 
-static bool changes_files(const struct seccomp_data *call) {
+/* What is no file on a disk and no pipe: a display, memory of a driver. */
+static bool is_elsewhere(pid_t pid, uint64_t descriptor) {
+  static const char *const elsewhere[] = {"socket:", "anon_inode:", "/memfd:", "/dev/"};
+  char link[64], to[16] = "";
+  snprintf(link, sizeof link, "/proc/%d/fd/%d", (int)pid, (int)descriptor);
+  if (readlink(link, to, sizeof to - 1) < 0) return false;
+  for (size_t k = 0; k < sizeof elsewhere / sizeof *elsewhere; ++k)
+    if (!strncmp(to, elsewhere[k], strlen(elsewhere[k]))) return true;
+  return false;
+}
+
+static bool changes_files(pid_t pid, const struct seccomp_data *call) {
   const uint64_t creating = O_CREAT | (O_TMPFILE & ~O_DIRECTORY);
   if (call->nr == SYS_openat) return (call->args[2] & creating) != 0;
   bool writes = call->nr == SYS_write || call->nr == SYS_pwrite64 || call->nr == SYS_writev;
-  return !writes || call->args[0] != STDERR_FILENO;
+  if (!writes && call->nr != SYS_fsync && call->nr != SYS_ftruncate) return true;
+  if (writes && call->args[0] == STDERR_FILENO) return false;
+  return !is_elsewhere(pid, call->args[0]);
 }
 
 /* A message that carries a descriptor. */
@@ -137,7 +150,7 @@ static void answer(int listener, pid_t pid, const struct supervised *program,
   if (ioctl(listener, SECCOMP_IOCTL_NOTIF_RECV, &asked) != 0) return;
   struct seccomp_notif_resp reply = {.id = asked.id, .flags = SECCOMP_USER_NOTIF_FLAG_CONTINUE};
   bool own = (pid_t)asked.pid == pid;
-  if (own != program->of_children && changes_files(&asked.data) &&
+  if (own != program->of_children && changes_files((pid_t)asked.pid, &asked.data) &&
       (program->renames_too || !is_rename(&asked.data))) {
     long number = ++outcome->calls;
     if (program->fail_from && number >= program->fail_from && number <= program->fail_to) {

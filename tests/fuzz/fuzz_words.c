@@ -1,4 +1,4 @@
-/* fuzz_words.c - LIGHT, CAMERA and the numbers of options. */
+/* fuzz_words.c - LIGHT, CAMERA, keys of the viewer and the numbers of options. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,6 +7,7 @@
 #include "light_text.h"
 #include "options.h"
 #include "slab_cli.h"
+#include "view_state.h"
 
 static void read_camera(const char *text) {
   struct camera camera;
@@ -29,6 +30,17 @@ static void read_numbers(const char *text) {
   if (cli_parse_size(text, size)) fuzz_check(size[0] >= 1 && size[1] >= 1);
 }
 
+static void read_keys(const char *text) {
+  const char *at = text, *before;
+  int key;
+  bool shift;
+  do {
+    before = at;
+    if (!view_key_read(&at, &key, &shift)) return;
+    fuzz_check(key >= 0 && key <= VIEW_KEY_ESCAPE && (!key || at > before));
+  } while (key);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   struct light_text light;
   struct slab_error error;
@@ -39,6 +51,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   }
   read_camera(text);
   read_numbers(text);
+  read_keys(text);
   free(text);
   return 0;
 }
