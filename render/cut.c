@@ -274,7 +274,10 @@ bool cut_sum(const struct cut_tree *tree, const struct view *from, double tolera
              struct cut_work *work, double irradiance[3], struct cut_counts *counts) {
   const struct view scaled = cut_tree_view(tree, from), *view = &scaled;
   if (view->kernel.shininess > 0 || !(view->height > 0) || !above(view)) return false;
-  if (!cut_view_begin(tree, view, &work->view)) return false;
+  if (!cut_view_begin(tree, view, &work->view)) {
+    counts->no_memory = true;
+    return false;
+  }
   work->count = 0;
   work->light = work->bent = work->spread = work->square = work->cost = 0;
   work->visited = 0;

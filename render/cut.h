@@ -15,8 +15,8 @@
  * Where that takes more than all views at once (cut_views.h), and these are exact enough, they are
  * summed instead: so it is near the aperture. The micro lights do it, and cut_sum returns false,
  * for glossy receivers, where the tangent plane cuts the aperture, and at the aperture, where
- * neither is exact enough or any faster. Finding that out costs a few percent of the micro lights. All
- * of them keep the tolerance, so nothing is seen where one hands over to another.
+ * neither is exact enough or any faster. Finding that out costs a few percent of the micro lights.
+ * All of them keep the tolerance, so nothing is seen where one hands over to another.
  *
  * The error of a page's light: the largest of the channels' absolute errors, relative to the
  * largest channel, or to 1e-4 of the most that the page can send to the receiver's height, if that
@@ -50,6 +50,7 @@ struct cut_counts {
   uint64_t visited; /* looked at */
   uint64_t views;   /* summed all at once, see cut_views.h: their nodes */
   double error;     /* predicted, of the last sum */
+  bool no_memory;   /* for a sum, which was not done: that of the micro lights has other digits */
 };
 
 /* Scratch memory of one thread. So many sums wait for each other. */

@@ -322,7 +322,10 @@ static bool take_cut(struct gather *gather, const struct look *look, const struc
   const struct gather_aids *aids = gather->settings->aids;
   if (!aids || !aids->trees) return false;
   if (!gather->cut) gather->cut = cut_work_make();
-  if (!gather->cut) return false; /* no memory: the micro lights need less */
+  if (!gather->cut) {
+    gather->cut_counts.no_memory = true;
+    return false;
+  }
   if (gather->by_cut_count == TOGETHER) add_cuts(gather, look->light->gain, gathered);
   if (!cut_sum(aids->trees[look->page_number], view, gather->settings->tolerance, 0, gather->cut,
                gather->by_cut[gather->by_cut_count].irradiance, &gather->cut_counts))
@@ -427,5 +430,7 @@ enum slab_result gather_light(struct gather *gather, const struct receiver *rece
       gather->cell_counts.nodes + gather->cut_counts.nodes + gather->cut_counts.views;
   gather->counts.black = gather->cell_counts.black;
   gather->counts.shadow_rays = gather->visible.shadow_rays;
+  if (result == SLAB_OK && gather->cut_counts.no_memory)
+    result = slab_fail(error, SLAB_MEMORY, "out of memory for the lights");
   return result;
 }

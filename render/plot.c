@@ -77,6 +77,17 @@ static void first_words(FILE *said, char words[200]) {
   slab_one_line(words);
 }
 
+/* gnuplot does not look whether its words get to the disk: the last must be there. */
+static bool is_whole(int out) {
+  static const char *const ends[] = {"</svg>", "IEND"};
+  char tail[17] = "";
+  off_t size = lseek(out, 0, SEEK_END), from = size - (off_t)sizeof tail + 1;
+  ssize_t got = pread(out, tail, sizeof tail - 1, from > 0 ? from : 0);
+  for (size_t k = 0; k < sizeof ends / sizeof *ends; ++k)
+    if (got > 0 && memmem(tail, (size_t)got, ends[k], strlen(ends[k]))) return true;
+  return false;
+}
+
 static enum slab_result draw(const char *path, const char *script, FILE *in, FILE *said, int out,
                              struct slab_error *error) {
   char words[200];
@@ -85,8 +96,11 @@ static enum slab_result draw(const char *path, const char *script, FILE *in, FIL
     return slab_fail(error, SLAB_IO, "%s: gnuplot's script: %s", path, strerror(errno));
   int status = run_gnuplot(fileno(in), out, fileno(said));
   if (status == NOT_THERE) return not_there(path, error);
-  if (status == 0 && lseek(out, 0, SEEK_END) > 0) return SLAB_OK;
+  if (status == 0 && is_whole(out)) return SLAB_OK;
   first_words(said, words);
+  if (status == 0 && !*words)
+    return slab_fail(error, SLAB_IO, "%s: gnuplot did not write all of it; is the disk full?",
+                     path);
   return slab_fail(error, SLAB_IO, "%s: gnuplot failed: %s", path, words);
 }
 

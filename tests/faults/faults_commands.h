@@ -88,6 +88,10 @@ static const struct faults_command faults_commands[] = {
      .line = "renderslab irradiance --light ../in/little.tif --mesh ../in/square.obj --threads 2",
      .in = "../in/receivers",
      .outputs = ""},
+    {.name = "irradiance-cut",
+     .line = "renderslab irradiance --light ../in/little.tif --method cut --threads 1",
+     .in = "../in/receivers",
+     .outputs = ""},
     {.name = "image",
      .line = "renderslab image -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
              "--size 8x6 --threads 2 -o x.exr --preview x.png",
