@@ -68,7 +68,8 @@ EFFORT ?= 8
 .PHONY: stability
 stability: $(NUMERICS) $(B)/tests/chain/test_stability $(BIN) ## sweep hard cases of the sums; CASE='ROW SEED' repeats one
 	@mkdir -p build/stability
-	@$(NUMERICS) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/index.html)
+	@$(NUMERICS) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/index.html build/stability/growth.txt)
+	$(if $(CASE),,@! command -v gnuplot >/dev/null || tests/numerics/growth.sh build/stability/growth.txt build/stability/growth.png)
 	$(if $(CASE),,@echo && echo "POV-Ray's side, relative RMSE:" && $(TEST_ENV) $(B)/tests/chain/test_stability)
 
 lint: $(B)/flags ## check formatting, static analysis and house rules

@@ -95,6 +95,14 @@ double gl_allowed(const struct lamp *lamp, const struct test_receiver *receiver)
   return find_allowed(lamp, &views, &most);
 }
 
+double gl_error(struct lamp *lamp, const struct test_receiver *receiver) {
+  const struct views views = sum_views(&lamp->slab, receiver);
+  double rgb[3], off = 0, most;
+  if (isinf(find_allowed(lamp, &views, &most)) || !lamp_sum_gl(lamp, receiver, rgb)) return 0;
+  for (int c = 0; c < 3; ++c) off = fmax(off, fabs(rgb[c] - views.sum[c]));
+  return off / most;
+}
+
 static void hold(struct trial *trial, const struct lamp *lamp, enum gather_method method,
                  const struct views *views, const double rgb[3]) {
   double off = 0, most;

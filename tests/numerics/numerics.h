@@ -20,6 +20,8 @@
 #define receiver test_receiver /* gather.h has another */
 #include "render/helpers.h"
 #undef receiver
+#include <stdio.h>
+
 #include "gl_gather.h"
 #include "render/oracle.h"
 
@@ -40,9 +42,10 @@ struct tally {
 
 /* One seed of a row. */
 struct trial {
-  uint32_t seed, start; /* the random numbers' next; what it began with */
-  struct tally *tally;  /* [NUMERICS_METHODS] */
-  bool verbose;         /* print what is not allowed */
+  uint32_t seed, start;  /* the random numbers' next; what it began with */
+  struct tally *tally;   /* [NUMERICS_METHODS] */
+  bool verbose;          /* print what is not allowed */
+  struct growth *growth; /* NULL: not wanted */
 };
 
 struct numerics_row {
@@ -94,6 +97,8 @@ bool gl_is_here(const char **why);
 bool lamp_sum_gl(struct lamp *lamp, const struct test_receiver *receiver, double rgb[3]);
 /* What they may err relative to the light: INFINITY where nothing is claimed. */
 double gl_allowed(const struct lamp *lamp, const struct test_receiver *receiver);
+/* The error of gl relative to the light; 0 where nothing is claimed. */
+double gl_error(struct lamp *lamp, const struct test_receiver *receiver);
 /* Holds views and gl against the sum over views. */
 void trial_hold_views(struct trial *trial, struct lamp *lamp, const struct test_receiver *receiver);
 
@@ -109,15 +114,49 @@ void trial_hold(struct trial *trial, struct lamp *lamp, const struct test_receiv
 void trial_hold_value(struct trial *trial, const struct lamp *lamp,
                       const struct test_receiver *receiver, const struct oracle_value *exact);
 
+/* A receiver and what it should get. */
+struct look {
+  const struct lamp *lamp;
+  const struct test_receiver *receiver;
+  const struct oracle_value *exact;
+  double height;
+  double spread[3]; /* oracle_spread's, if has_spread */
+  bool has_spread;
+};
+struct look look_at(const struct lamp *lamp, const struct test_receiver *receiver,
+                    const struct oracle_value *exact);
+/* Errors of the channels, as said above, with their signs. Returns the largest; NAN for what must
+ * never be. */
+double look_error(struct look *look, enum gather_method method, const double rgb[3], double allowed,
+                  double error[3]);
+
+/* Turns the receiver so that the light, a unit vector, comes in at this angle over its horizon. */
+void turn_towards(struct test_receiver *receiver, const double to_light[3], double angle);
+
 /* What rounding the receiver can change, in each channel. */
 void oracle_spread(const struct slab *slab, const struct test_receiver *receiver, double spread[3]);
 
 /* The methods that a row asks for when all behave alike: their tolerance in rounding alone. */
 double method_rounding(enum gather_method method);
 
+/* The worst errors along each kind of hardness (growth.c), and what is drawn of them. */
+enum { GROWTH_AXES = 8, GROWTH_BINS = 18 };
+struct growth {
+  double worst[GROWTH_AXES][GROWTH_BINS][NUMERICS_METHODS]; /* 0: none */
+};
+struct growth_axis {
+  const char *name;
+  double low, high; /* in decades */
+};
+extern const struct growth_axis growth_axes[GROWTH_AXES];
+void growth_merge(const struct growth *from, struct growth *to);
+void growth_write_svg(FILE *file, const struct growth *growth);
+bool growth_write_table(const char *path, const struct growth *growth); /* for gnuplot */
+
 /* The table as text and HTML (report.c); returns how many cells miss. */
 int report_print(const struct tally table[][NUMERICS_METHODS], double seconds);
-bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS], double seconds);
+bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS], double seconds,
+                  const struct growth *growth);
 
 /* The rows (rows_*.c). */
 void row_distance(struct trial *trial);
@@ -143,6 +182,7 @@ void row_units(struct trial *trial);
 void row_symmetry(struct trial *trial);
 void row_superposition(struct trial *trial);
 void row_neighbours(struct trial *trial);
+void row_growth(struct trial *trial);
 void row_switches(struct trial *trial);
 void row_strips(struct trial *trial);
 void row_single(struct trial *trial);

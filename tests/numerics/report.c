@@ -76,7 +76,8 @@ static const char legend[] =
     "(In parentheses): the largest error of a method that claims none; it must be finite, and not "
     "negative. Below each: values compared.</p>\n";
 
-bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS], double seconds) {
+bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS], double seconds,
+                  const struct growth *growth) {
   const int methods = count_methods(table);
   FILE *file = fopen(path, "w");
   if (!file) {
@@ -97,8 +98,10 @@ bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS]
               cell((enum gather_method)k, tally, text), (unsigned long long)tally->values);
     }
   }
+  fprintf(file, "\n</table>\n");
+  growth_write_svg(file, growth);
   fprintf(file,
-          "\n</table>\n<p>%.0f s. One case again: <code>make stability CASE='ROW SEED'</code>"
+          "<p>%.0f s. One case again: <code>make stability CASE='ROW SEED'</code>"
           "</html>\n",
           seconds);
   return fclose(file) == 0;

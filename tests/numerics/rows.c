@@ -25,6 +25,8 @@ const struct numerics_row numerics_rows[] = {
     {"units", "lengths of 1e-150 to 1e150", QUADRATURE, row_units, 40},
     {"switches", "both sides of a change of rules, nodes or micro lights", "itself", row_switches,
      60},
+    {"growth", "small steps along each kind of hardness: no jump of the error", QUADRATURE,
+     row_growth, 8},
     {"constant", "radiance 1", "Lambert's polygon formula", row_constant, 20},
     {"mpmath", "a table of hard cases", "mpmath, 50 digits", row_mpmath, 6},
     {"strips", "lines of uv and st merged, hat functions", "exact rationals", row_strips, 20},

@@ -75,7 +75,7 @@ void row_st_distance(struct trial *trial) {
 
 /* ---- Angles. */
 
-static void turn_towards(struct test_receiver *receiver, const double to_light[3], double angle) {
+void turn_towards(struct test_receiver *receiver, const double to_light[3], double angle) {
   double across = 0, length = 0, *n = receiver->n;
   for (int c = 0; c < 3; ++c) across += n[c] * to_light[c];
   for (int c = 0; c < 3; ++c) n[c] -= across * to_light[c];

@@ -1,8 +1,8 @@
 /* test_numerics.c - hard cases stay numerically stable (numerics.h). As a test: a few seeds of
  * each row. With arguments: a sweep.
  *
- *   test_numerics EFFORT JOBS TABLE.html   seeds in proportion, by so many processes
- *   test_numerics ROW SEED                 one case again, with all numbers */
+ *   test_numerics EFFORT JOBS TABLE.html GROWTH.txt   seeds in proportion, by so many processes
+ *   test_numerics ROW SEED                            one case again, with all numbers */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,9 +16,14 @@
 
 typedef struct tally table[NUMERICS_ROWS_MAX][NUMERICS_METHODS];
 
+struct part {
+  table sums;
+  struct growth growth;
+};
+
 /* A seed's random numbers are those of its row's, too. */
-static void run(int row, uint32_t seed, struct tally *tally, bool verbose) {
-  struct trial trial = {.start = seed, .tally = tally, .verbose = verbose};
+static void run(int row, uint32_t seed, struct tally *tally, struct growth *growth, bool verbose) {
+  struct trial trial = {.start = seed, .tally = tally, .verbose = verbose, .growth = growth};
   trial.seed = seed * 2654435761u + (uint32_t)row * 40503u + 1;
   numerics_rows[row].run(&trial);
 }
@@ -42,7 +47,7 @@ static void test_row(void **state) {
   static table few;
   const int row = *(const int *)*state;
   memset(few, 0, sizeof few);
-  for (uint32_t seed = 0; seed < 3; ++seed) run(row, seed, few[row], false);
+  for (uint32_t seed = 0; seed < 3; ++seed) run(row, seed, few[row], NULL, false);
   for (int k = 0; k < NUMERICS_METHODS; ++k) {
     const struct tally *tally = &few[row][k];
     if (!(tally->share <= 1))
@@ -68,16 +73,16 @@ static int test(void) {
 /* ---- The sweep. */
 
 /* Every jobs-th seed of each row. */
-static void sweep_part(int part, int jobs, int effort, table sums) {
+static void sweep_part(int part, int jobs, int effort, struct part *sums) {
   for (int row = 0; row < numerics_row_count; ++row)
     for (int seed = part; seed < effort * numerics_rows[row].seeds; seed += jobs)
-      run(row, (uint32_t)seed, sums[row], false);
+      run(row, (uint32_t)seed, sums->sums[row], &sums->growth, false);
 }
 
-static int sweep(int effort, int jobs, const char *path) {
-  table *parts = mmap(NULL, (size_t)jobs * sizeof *parts, PROT_READ | PROT_WRITE,
-                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  static table all;
+static int sweep(int effort, int jobs, const char *path, const char *growth) {
+  struct part *parts = mmap(NULL, (size_t)jobs * sizeof *parts, PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  static struct part all;
   struct timespec start, end;
   clock_gettime(CLOCK_MONOTONIC, &start);
   if (parts == MAP_FAILED) return 1;
@@ -85,18 +90,24 @@ static int sweep(int effort, int jobs, const char *path) {
     pid_t child = fork();
     if (child < 0) return 1;
     if (child == 0) {
-      sweep_part(k, jobs, effort, parts[k]);
+      sweep_part(k, jobs, effort, &parts[k]);
       exit(0);
     }
   }
   int status, failed = 0;
   while (wait(&status) > 0) failed += status != 0;
-  for (int k = 0; k < jobs; ++k) merge((const struct tally(*)[NUMERICS_METHODS])parts[k], all);
+  for (int k = 0; k < jobs; ++k) {
+    merge((const struct tally(*)[NUMERICS_METHODS])parts[k].sums, all.sums);
+    growth_merge(&parts[k].growth, &all.growth);
+  }
   clock_gettime(CLOCK_MONOTONIC, &end);
   double seconds =
       (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
-  int missed = report_print((const struct tally(*)[NUMERICS_METHODS])all, seconds);
-  if (!report_write(path, (const struct tally(*)[NUMERICS_METHODS])all, seconds)) failed = 1;
+  int missed = report_print((const struct tally(*)[NUMERICS_METHODS])all.sums, seconds);
+  if (!report_write(path, (const struct tally(*)[NUMERICS_METHODS])all.sums, seconds,
+                    &all.growth) ||
+      !growth_write_table(growth, &all.growth))
+    failed = 1;
   return missed > 0 || failed > 0;
 }
 
@@ -106,7 +117,7 @@ static int again(const char *name, const char *seed) {
   static struct tally tally[NUMERICS_METHODS];
   for (int row = 0; row < numerics_row_count; ++row) {
     if (strcmp(numerics_rows[row].name, name) != 0) continue;
-    run(row, (uint32_t)strtoul(seed, NULL, 10), tally, true);
+    run(row, (uint32_t)strtoul(seed, NULL, 10), tally, NULL, true);
     for (int k = 0; k < NUMERICS_METHODS; ++k)
       if (tally[k].values > 0)
         printf("%-12s error %.3g, %.3g of what is allowed\n",
@@ -122,6 +133,6 @@ static int again(const char *name, const char *seed) {
 
 int main(int argc, char **argv) {
   if (argc == 3) return again(argv[1], argv[2]);
-  if (argc == 4) return sweep(atoi(argv[1]), atoi(argv[2]), argv[3]);
+  if (argc == 5) return sweep(atoi(argv[1]), atoi(argv[2]), argv[3], argv[4]);
   return test();
 }

@@ -186,15 +186,6 @@ void oracle_spread(const struct slab *slab, const struct test_receiver *receiver
 
 /* ---- Side by side. */
 
-struct look {
-  const struct lamp *lamp;
-  const struct test_receiver *receiver;
-  const struct oracle_value *exact;
-  double height;
-  double spread[3];
-  bool has_spread;
-};
-
 static double largest(const long double rgb[3]) {
   return (double)fmaxl(fmaxl(rgb[0], rgb[1]), rgb[2]);
 }
@@ -212,15 +203,16 @@ static double find_scale(const struct look *look, enum gather_method method, int
   return scale;
 }
 
-/* The largest of the channels'; NAN for what must never be. */
-static double find_error(struct look *look, enum gather_method method, const double rgb[3],
-                         double allowed) {
+double look_error(struct look *look, enum gather_method method, const double rgb[3], double allowed,
+                  double error[3]) {
   const double tried = allowed > exact_methods ? allowed : allowed / 100;
   double worst = 0;
   for (int c = 0; c < 3; ++c) {
     const struct oracle_value *exact = look->exact;
+    error[c] = 0;
     if (!isfinite(rgb[c])) return NAN;
-    double off = (double)fabsl((long double)rgb[c] - exact->e[c]);
+    const double beside = (double)((long double)rgb[c] - exact->e[c]);
+    double off = fabs(beside);
     if (rgb[c] < 0 && look->lamp->positive) return NAN;
     if (off == 0) continue;
     double scale = find_scale(look, method, c);
@@ -229,7 +221,9 @@ static double find_error(struct look *look, enum gather_method method, const dou
       look->has_spread = true;
     }
     if (look->has_spread) off -= fmin(off, look->spread[c]);
-    if (off > 0) worst = fmax(worst, off / scale);
+    if (!(off > 0)) continue;
+    worst = fmax(worst, off / scale);
+    error[c] = copysign(off / scale, beside);
   }
   return worst;
 }
@@ -246,20 +240,26 @@ static double find_height(const struct slab *slab, const double p[3]) {
   return height;
 }
 
+struct look look_at(const struct lamp *lamp, const struct test_receiver *receiver,
+                    const struct oracle_value *exact) {
+  return (struct look){lamp, receiver, exact, find_height(&lamp->slab, receiver->p), {0}, false};
+}
+
 void trial_hold_value(struct trial *trial, const struct lamp *lamp,
                       const struct test_receiver *receiver, const struct oracle_value *exact) {
   static const double tolerances[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
-  struct look look = {lamp, receiver, exact, find_height(&lamp->slab, receiver->p), {0}, false};
+  struct look look = look_at(lamp, receiver, exact);
   const double asked = tolerances[trial_choose(trial, 5)];
   if (trial->verbose) print_receiver(receiver, exact);
   for (int k = 0; k < GATHER_METHODS; ++k) {
     const enum gather_method method = (enum gather_method)k;
     struct gathered got;
+    double error[3];
     bool asks = method == GATHER_AUTO || method == GATHER_CUT;
     lamp_sum(lamp, method, asks ? asked : 1e-6, receiver, &got, NULL);
     double allowed = asks ? asked : got.error;
     if (method == GATHER_REFERENCE || method == GATHER_CLOSED) allowed = exact_methods;
-    trial_note(trial, method, find_error(&look, method, got.irradiance, allowed), allowed);
+    trial_note(trial, method, look_error(&look, method, got.irradiance, allowed, error), allowed);
     if (trial->verbose)
       printf("  %-12s %.17g %.17g %.17g, predicted %g\n", gather_method_name(method),
              got.irradiance[0], got.irradiance[1], got.irradiance[2], got.error);
