@@ -35,7 +35,8 @@ struct gl_slides {
 };
 
 /* The page outlives the slides. `gain` multiplies radiance; `origin` is subtracted from
- * positions, so that they keep their digits in single precision. groups: 0: each view.
+ * positions, so that they keep their digits in single precision; sides of apertures and
+ * distances from the origin beyond 1e-15 and 1e15 are refused. groups: 0: each view.
  * together: the views of a group follow each other. */
 enum slab_result gl_slides_create(const struct light_page *page, double gain,
                                   const double origin[3], int groups, bool together,

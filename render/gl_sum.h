@@ -4,7 +4,8 @@
  * Receivers are textures of floats: from camera rays on the CPU (gl_gather.h), or drawn. What
  * they get is added up in two more, so that views may be added one by one, by parts, or all in
  * one pass; all give the same to float rounding. Shadow maps are kept where all find room. Light is
- * zero below the receiver's tangent plane; shadows by gl_maps.h. */
+ * zero below the receiver's tangent plane, and at most 1e30 times the unit: beside a view's middle
+ * its inverse square has no bound. Shadows by gl_maps.h. */
 #ifndef GL_SUM_H
 #define GL_SUM_H
 

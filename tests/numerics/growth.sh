@@ -14,7 +14,7 @@ set multiplot layout 2,4
 set logscale xy; set format '1e%T'; set grid ytics lc rgb '#dddddd'
 set yrange [1e-17:10]; set ytics 1e4; set xtics 1e3"
   for axis in "${!names[@]}"; do
-    echo "axis = $axis; set title \"${names[axis]}\"; $([ "$axis" = 0 ] && echo 'set key bottom left samplen 1' || echo 'unset key')"
+    echo "axis = $axis; set title \"${names[axis]}\"; $([ "$axis" = 7 ] && echo 'set key at graph 0.98, 0.46 right samplen 1 maxrows 4' || echo 'unset key')"
     [[ ${names[axis]} == *sample\;* ]] && echo 'set xtics 1e10'
     IFS=,
     echo "plot ${plots[*]}"

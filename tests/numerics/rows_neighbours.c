@@ -41,7 +41,7 @@ static void sum_otherwise(struct trial *trial, const struct lamp *lamp,
                           const struct receiver receivers[COUNT], struct gathered got[COUNT]) {
   struct receiver group[COUNT];
   struct gathered light[COUNT];
-  int order[COUNT], size;
+  int order[COUNT] = {0}, size;
   for (int k = 0; k < COUNT; ++k) {
     int other = trial_choose(trial, k + 1);
     order[k] = order[other];
