@@ -253,7 +253,7 @@ void trial_hold_value(struct trial *trial, const struct lamp *lamp,
   if (trial->verbose) print_receiver(receiver, exact);
   for (int k = 0; k < GATHER_METHODS; ++k) {
     const enum gather_method method = (enum gather_method)k;
-    struct gathered got;
+    struct gathered got = {{0}, {0}, 0};
     double error[3];
     bool asks = method == GATHER_AUTO || method == GATHER_CUT;
     lamp_sum(lamp, method, asks ? asked : 1e-6, receiver, &got, NULL);
