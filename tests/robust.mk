@@ -69,7 +69,8 @@ $(B)/tests/faults/bakeslab.log $(B)/tests/faults/renderslab.log: $(B)/tests/faul
 
 $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
 
-# A driver's memory that its globals hold looks lost once the driver is unloaded: none is.
+# A driver's memory that its globals hold looks lost once the driver is unloaded: for
+# render/view none is.
 $(B)/tests/faults/keep.so: tests/faults/keep.c | $(SETUP_FIRST)
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
@@ -77,7 +78,6 @@ $(B)/tests/faults/keep.so: tests/faults/keep.c | $(SETUP_FIRST)
 
 ifeq ($(config),sanitize)
 $(B)/tests/render/view.log: $(B)/tests/faults/keep.so
-$(B)/tests/render/view.log: private export LD_PRELOAD = $(abspath $(B)/tests/faults/keep.so)
 endif
 
 # All of it, at length: every test under the address and undefined behaviour sanitizers, but for

@@ -15,6 +15,7 @@ setup() {
   cd "$BATS_TEST_TMPDIR/run" || return
   ln -s "$BATS_FILE_TMPDIR"/* .
   command -v xvfb-run >/dev/null || skip 'no xvfb-run'
+  if [ "${CONFIG-}" = sanitize ]; then export LD_PRELOAD=$BUILD/tests/faults/keep.so; fi
 }
 
 # view MESH OPTION...: in a window of a display of its own.
