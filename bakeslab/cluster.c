@@ -65,6 +65,9 @@ static enum slab_result grow_page(const struct work *work, int wanted, struct cl
 static enum slab_result finish_page(const struct work *work, int number, double distance,
                                     struct cluster_page *page, struct slab_error *error) {
   double most = 0, fade = 1e-3;
+  if (page->count == 0)
+    return slab_fail(error, SLAB_BAD, "page %d: no area light fits it; use --mode sheet",
+                     number + 1);
   for (int k = 0; k < page->count; ++k)
     for (int c = 0; c < 3; ++c) {
       page->lights[k].rgb[c] *= work->unit;

@@ -22,10 +22,11 @@ static const char macros[] =
     "  #local Nu_ = @_Points(@_Lobes[Number_][3]);\n"
     "  #local Nv_ = @_Points(@_Lobes[Number_][4]);\n"
     "  #local Fade_ = 1e-3*@_Lobes[Number_][5];\n"
+    "  @_Fits(Size_*@_Lobes[Number_][5])\n"
     "  #if (Size_*@_Lobes[Number_][5] < @_Least_Width)\n"
     "    #error concat(\"@_Canned: too small for POV-Ray's shadow tolerance: use Scale >= \",\n"
-    "      str(ceil(1e4*@_Least_Width/@_Lobes[Number_][5])/1e4, 0, 4), \" instead of \",\n"
-    "      str(Size_, 0, 4), \", or larger scene units\\n\")\n"
+    "      @_Text(@_Least_Width/@_Lobes[Number_][5]), \" instead of \", @_Text(Size_),\n"
+    "      \", or larger scene units\\n\")\n"
     "  #end\n"
     "  light_source { Size_*@_Places[Number_][0] rgb Gain_*@_Colours[Number_]/(2*pi*1e-6)\n"
     "    spotlight point_at Size_*(@_Places[Number_][0] + @_Places[Number_][3])\n"
@@ -37,11 +38,9 @@ static const char macros[] =
     "    #end\n"
     "  }\n"
     "#end\n"
-    "\n"
-    "#macro @_Canned(Scale, Gain)\n"
-    "  #if (Scale <= 0)\n"
-    "    #error concat(\"@_Canned: Scale is \", str(Scale, 0, 4), \", must be positive\\n\")\n"
-    "  #end\n"
+    "\n";
+
+static const char canned[] =
     "  #if (@_Lights < 1)\n"
     "    #error concat(\"@_Canned: @_Lights is \", str(@_Lights, 0, 2),\n"
     "      \", must be at least 1\\n\")\n"
@@ -51,12 +50,13 @@ static const char macros[] =
     "    #if (vlength(@_Colours[Number_]) > vlength(Most_)) #local Most_ = @_Colours[Number_]; "
     "#end\n"
     "  #end\n"
-    "  @_Strength(Gain*Most_/(2*pi*1e-6))\n"
-    "  union {\n"
+    "  @_Strength(Gain_*Most_/(2*pi*1e-6))\n"
+    "  #local Several_ = (dimension_size(@_Lobes, 1) > 1);\n"
+    "  #if (Several_) union { #end\n"
     "    #for (Number_, 0, dimension_size(@_Lobes, 1) - 1)\n"
-    "      @_Light(Number_, Scale, Gain)\n"
+    "      @_Light(Number_, Size_, Gain_)\n"
     "    #end\n"
-    "  }\n"
+    "  #if (Several_) } #end\n"
     "#end\n";
 
 static double narrowest(const struct cluster *cluster) {
@@ -194,7 +194,9 @@ void cluster_print(const struct cluster *cluster, const struct include_text *tex
           "// Smallest width of an aperture, in scene units: POV-Ray ignores shadows closer\n"
           "// than 0.001.\n#declare %s_Least_Width = %g;\n\n",
           text->name, least_width);
-  include_strength(text->name, out);
+  include_checks(text->name, out);
   include_named(macros, text->name, out);
+  include_canned(text->name, out);
+  include_named(canned, text->name, out);
   include_end(text, cluster->stamp, out);
 }

@@ -152,24 +152,63 @@ void include_image(const struct include_text *text, const char *mapping,
       text->name, out);
 }
 
-void include_strength(const char *name, FILE *out) {
+const double include_most_width = 1e9;
+
+/* POV-Ray's str() has room for 127 characters, its <= and >= take 1e-10 for nothing, NaN for
+ * anything; < and > do neither. */
+void include_checks(const char *name, FILE *out) {
+  fprintf(out, "#declare %s_Most_Width = %g;  // of a lamp in the scene\n\n", name,
+          include_most_width);
   include_named(
+      "// A number for messages, rounded up to five digits.\n"
+      "#macro @_Text(X_)\n"
+      "  #local Size_ = min(max(X_, 1e-100), 1e100);\n"
+      "  #local Places_ = 4 - floor(log(Size_));\n"
+      "  #local Size_ = ceil(Size_*pow(10, Places_) - 1e-6)/pow(10, Places_);\n"
+      "  #if (X_ > 0) str(Size_, 0, max(Places_, 0)) #else str(max(X_, -1e50), 0, 4) #end\n"
+      "#end\n"
+      "\n"
       "// Stops where the lamp is too bright or too faint for POV-Ray, whose colours end near\n"
       "// 1e38, and which drops what a light gives below 1e-10. Colour_ is the brightest light's.\n"
       "#macro @_Strength(Colour_)\n"
       "  #local Most_ = max(abs(Colour_.x), abs(Colour_.y), abs(Colour_.z));\n"
-      "  #if (Most_ > 1e37)\n"
+      "  #if (!(Most_ < 1e37 & vlength(Colour_) > -1))\n"
       "    #error \"@_Canned: too bright for POV-Ray's light colours: use a smaller Gain\\n\"\n"
       "  #end\n"
       "  #local Reach_ = sqrt(2e4*Most_);  // in aperture widths, with the fade that lights have\n"
       "  #if (Most_ > 0 & Reach_ < 1000)\n"
-      "    #local Text_ = concat(\"@_Canned: too faint beyond \", str(Reach_, 0, 1),\n"
-      "      \" apertures, where POV-Ray drops its light: use \", str(ceil(pow(1000/Reach_, 2)), "
-      "0, 0),\n"
+      "    #local Text_ = concat(\"@_Canned: too faint beyond \", @_Text(Reach_),\n"
+      "      \" apertures, where POV-Ray drops its light: use \", @_Text(pow(1000/Reach_, 2)),\n"
       "      \" times the Gain\\n\")\n"
       "    #if (Reach_ < 100) #error Text_ #else #warning Text_ #end\n"
       "  #end\n"
+      "#end\n"
+      "\n"
+      "// Stops where the lamp, so wide in the scene, is too large: POV-Ray's objects end 1e10\n"
+      "// units from the origin.\n"
+      "#macro @_Fits(Width_)\n"
+      "  #if (!(Width_ < 1.001*@_Most_Width))\n"
+      "    #error concat(\"@_Canned: too large for POV-Ray, whose objects end 1e10 units from\",\n"
+      "      \" the origin: use a smaller Scale, or smaller scene units\\n\")\n"
+      "  #end\n"
       "#end\n\n",
+      name, out);
+}
+
+void include_canned(const char *name, FILE *out) {
+  include_named(
+      "#macro @_Canned(Scale, Gain)\n"
+      "  // As three numbers each, whether they were given as a number or as a vector.\n"
+      "  #local Scales_ = <1, 1, 1>*Scale;      #local Gains_ = <1, 1, 1>*Gain;\n"
+      "  #local Size_ = Scales_.x;              #local Gain_ = <Gains_.x, Gains_.y, Gains_.z>;\n"
+      "  #local Least_ = min(Size_, Scales_.y, Scales_.z);\n"
+      "  #if (!(Size_ > 0 & Least_ > 0))\n"
+      "    #error concat(\"@_Canned: Scale is \", @_Text(Least_), \", must be positive\\n\")\n"
+      "  #end\n"
+      "  #if (abs(Scales_.y/Size_ - 1) + abs(Scales_.z/Size_ - 1) > 1e-9)\n"
+      "    #error concat(\"@_Canned: Scale must be one number: a lamp cannot be stretched,\",\n"
+      "      \" only turned, moved and mirrored\\n\")\n"
+      "  #end\n",
       name, out);
 }
 

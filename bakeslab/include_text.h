@@ -48,9 +48,15 @@ struct include_check {
 void include_image(const struct include_text *text, const char *mapping,
                    const struct include_check *check, FILE *out);
 
-/* The macro @_Strength(Colour), which stops where POV-Ray's numbers cannot hold a lamp whose
- * brightest light has this colour and a fade distance of 1e-3 aperture widths. */
-void include_strength(const char *name, FILE *out);
+/* Macros: @_Text(X) writes a number for a message. @_Strength(Colour) stops where POV-Ray's
+ * numbers cannot hold a lamp whose brightest light has this colour and a fade distance of 1e-3
+ * aperture widths, @_Fits(Width) where it is wider in the scene than include_most_width. */
+extern const double include_most_width;
+void include_checks(const char *name, FILE *out);
+
+/* Begins the macro @_Canned(Scale, Gain): declares Size_, a positive number, and Gain_, a
+ * vector, or stops. */
+void include_canned(const char *name, FILE *out);
 
 /* FNV-1a over 64 bits: the hash of `bytes` after that of what came before; start with
  * include_hash_start. */

@@ -41,7 +41,7 @@ void plane_irradiance(const struct slab *slab, const int points[2], const double
       double radiance[3];
       slab_lookup(slab, a, b, x / distance + kappa * a, t, radiance);
       double r2 = x * x + y * y + distance * distance;
-      double weight = distance * distance / (r2 * r2) * du * dv;
+      double weight = distance * distance / r2 * (du * dv / r2); /* tiny lengths, too */
       for (int c = 0; c < 3; ++c) rgb[c] += weight * radiance[c];
     }
   }
@@ -64,9 +64,16 @@ struct plane plane_make(const struct slab *slab, double distance, double margin,
   return plane;
 }
 
+/* Where a receiver stands in its cell: rows and columns, which edges of light may follow,
+ * have theirs spread evenly over the cell, by the golden ratio. */
+static double spread(int index) {
+  double place = 0.5 + 0.6180339887498949 * index;
+  return place - floor(place);
+}
+
 void plane_receiver(const struct plane *plane, int column, int row, double at[2]) {
-  at[0] = plane->low[0] + (column + 0.5) / plane->receivers * plane->size[0];
-  at[1] = plane->low[1] + (row + 0.5) / plane->receivers * plane->size[1];
+  at[0] = plane->low[0] + (column + spread(row)) / plane->receivers * plane->size[0];
+  at[1] = plane->low[1] + (row + spread(column)) / plane->receivers * plane->size[1];
 }
 
 /* Angle at which the lit part begins along an axis, and how far it reaches. */

@@ -7,8 +7,8 @@
 
 #include "slab.h"
 
-/* receivers x receivers equal cells, each with a receiver on its middle that
- * faces the aperture. Lengths in lamp units, x along u and y along v. */
+/* receivers x receivers equal cells, each with a receiver in it that faces the
+ * aperture. Lengths in lamp units, x along u and y along v. */
 struct plane {
   double distance; /* from the aperture */
   double low[2], size[2];

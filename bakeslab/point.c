@@ -79,13 +79,13 @@ static int image_width(const struct far_lamp *lamp) {
   return width;
 }
 
-/* Paints intensity over its peak, rounded to half as the file will be; `flux` is what
- * the bilinear image then gives. */
+/* Paints the intensity of each channel over its peak, rounded to half as the file will be;
+ * `flux` is what the bilinear image then gives. */
 static enum slab_result paint(const struct far_lamp *lamp, struct point *point, double flux[3],
                               struct slab_error *error) {
   struct slab_picture *picture = &point->picture;
   int width = image_width(lamp), height = width / 2;
-  double step = M_PI / height, peak = 0,
+  double step = M_PI / height, peak[3] = {0, 0, 0},
          *image = calloc((size_t)width * (size_t)height * 3, sizeof *image);
   picture->rgb = calloc((size_t)width * (size_t)height * 3, sizeof *picture->rgb);
   if (!image || !picture->rgb) {
@@ -103,12 +103,13 @@ static enum slab_result paint(const struct far_lamp *lamp, struct point *point, 
         direction[c] = cos(latitude) * cos(longitude) * first->u[c] + sin(latitude) * first->v[c] +
                        cos(latitude) * sin(longitude) * first->views.normal[c];
       for (int p = 0; p < lamp->count; ++p) add_intensity(&lamp->pages[p], direction, rgb);
-      for (int c = 0; c < 3; ++c) peak = fmax(peak, rgb[c]);
+      for (int c = 0; c < 3; ++c) peak[c] = fmax(peak[c], rgb[c]);
     }
   flux[0] = flux[1] = flux[2] = 0;
-  for (size_t k = 0; k < (size_t)width * (size_t)height * 3 && peak > 0; ++k) {
+  for (size_t k = 0; k < (size_t)width * (size_t)height * 3; ++k) {
+    if (!(peak[k % 3] > 0)) continue;
     double latitude = ((height - 0.5) - (double)(k / 3 / (size_t)width)) * step - M_PI / 2;
-    picture->rgb[k] = slab_half_to_float(slab_half_from_float((float)(image[k] / peak)));
+    picture->rgb[k] = slab_half_to_float(slab_half_from_float((float)(image[k] / peak[k % 3])));
     /* The integral of a texel's hat function over longitude and latitude. */
     flux[k % 3] += (double)picture->rgb[k] * step * cos(latitude) * 2 * (1 - cos(step)) / step;
   }
@@ -174,7 +175,7 @@ static void far_irradiance(const struct point *point, const struct far_page *far
           (place[0] * far->u[c] + place[1] * far->v[c] + place[2] * far->views.normal[c]) / r;
     add_intensity(far, direction, rgb);
   }
-  for (int c = 0; c < 3; ++c) rgb[c] *= place[2] / (r2 * r);
+  for (int c = 0; c < 3; ++c) rgb[c] *= place[2] / r / r2;
 }
 
 /* Relative RMSE on a plane before a page, and around what the page lights there. */

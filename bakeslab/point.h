@@ -21,10 +21,11 @@ extern const double point_distances[POINT_DISTANCES]; /* in aperture widths */
 struct point {
   struct slab frame; /* geometry of the first page with light, without samples or text */
   double center[3];
-  double width;                /* of the widest aperture */
-  struct slab_picture picture; /* intensity over its peak; rows downwards, as files have them */
-  double intensity[3];         /* of what the image holds as 1, in lamp units */
-  double flux[3];              /* at Scale 1, in lamp units, of slab and light alike */
+  double width; /* of the widest aperture */
+  struct slab_picture
+      picture;         /* intensity over its channel's peak; rows downwards, as files have them */
+  double intensity[3]; /* of what the image holds as 1, in lamp units */
+  double flux[3];      /* at Scale 1, in lamp units, of slab and light alike */
   double error[POINT_DISTANCES], error_at, distance; /* relative RMSE; distance asked for */
   int black_pages;
   struct include_check check;

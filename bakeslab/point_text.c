@@ -11,29 +11,26 @@ static const double least_radius = 0.002;
 /* The sphere's radius in aperture widths, as far as the tolerance allows, and at most. */
 static const double radius = 0.05, most_radius = 0.5;
 
-static const char macros[] =
-    "#macro @_Canned(Scale, Gain)\n"
-    "  #if (Scale <= 0)\n"
-    "    #error concat(\"@_Canned: Scale is \", str(Scale, 0, 4), \", must be positive\\n\")\n"
-    "  #end\n"
-    "  #local Width_ = Scale*@_Width;\n"
+static const char canned[] =
+    "  #local Width_ = Size_*@_Width;\n"
+    "  @_Fits(Width_)\n"
     "  #local Radius_ = max(@_Radius*Width_, @_Least_Radius);\n"
     "  #if (Radius_ > @_Most_Radius*Width_)\n"
     "    #error concat(\"@_Canned: too small for POV-Ray's shadow tolerance: use Scale >= \",\n"
-    "      str(ceil(1e4*@_Least_Radius/(@_Most_Radius*@_Width))/1e4, 0, 4), \" instead of \",\n"
-    "      str(Scale, 0, 4), \", or larger scene units\\n\")\n"
+    "      @_Text(@_Least_Radius/(@_Most_Radius*@_Width)), \" instead of \", @_Text(Size_),\n"
+    "      \", or larger scene units\\n\")\n"
     "  #end\n"
     "  #local Fade_ = 1e-3*@_Width;\n"
-    "  @_Strength(Gain*@_Intensity/(2*pi*Fade_*Fade_))\n"
+    "  #local Colour_ = Gain_*@_Intensity/(2*pi*Fade_*Fade_);\n"
+    "  @_Strength(Colour_)\n"
     "  union {\n"
-    "    light_source { 0 rgb Gain*@_Intensity/(2*pi*Fade_*Fade_)\n"
-    "      fade_power 2 fade_distance Scale*Fade_ }\n"
+    "    light_source { 0 rgb Colour_ fade_power 2 fade_distance Size_*Fade_ }\n"
     "    sphere { 0, 1 pigment { @_Sheet } finish { ambient 0 diffuse 0 emission 0 } }\n"
     "    no_image no_reflection no_radiosity\n"
     "    #local U_ = Radius_*@_Frame[0];\n"
     "    #local V_ = Radius_*@_Frame[1];\n"
     "    #local N_ = Radius_*@_Frame[2];\n"
-    "    #local C_ = Scale*@_Frame[3];\n"
+    "    #local C_ = Size_*@_Frame[3];\n"
     "    matrix <U_.x, U_.y, U_.z, V_.x, V_.y, V_.z, N_.x, N_.y, N_.z, C_.x, C_.y, C_.z>\n"
     "  }\n"
     "#end\n";
@@ -53,10 +50,12 @@ static void print_header(const struct point *point, const struct include_text *t
           "//          the sphere, %g of the aperture's width. POV-Ray ignores shadows closer\n"
           "//          than 0.001 units to a light: the sphere grows below Scale %.3g, and\n"
           "//          Scale must be at least %.3g; use larger scene units for small lamps.\n"
+          "//          It tests boxes in single precision: keep the lamp and what it lights\n"
+          "//          within 10000 of its widths of the origin, and %g units wide at most.\n"
           "//          Light of other lamps is filtered by the sphere. Not in a light_group,\n"
           "//          not with shadowless, quality +Q4 or better.\n",
           radius, least_radius / (radius * point->width),
-          least_radius / (most_radius * point->width));
+          least_radius / (most_radius * point->width), include_most_width);
   if (point->black_pages)
     fprintf(out, "//          %d page(s) of the lamp hold no light and were left out.\n",
             point->black_pages);
@@ -96,7 +95,8 @@ void point_print(const struct point *point, const struct include_text *text, FIL
   include_begin(text, point->stamp, out);
   print_numbers(point, text->name, out);
   include_image(text, "map_type 1 ", &point->check, out);
-  include_strength(text->name, out);
-  include_named(macros, text->name, out);
+  include_checks(text->name, out);
+  include_canned(text->name, out);
+  include_named(canned, text->name, out);
   include_end(text, point->stamp, out);
 }

@@ -78,7 +78,8 @@ enum slab_result sheet_paint(struct sheet *sheet, struct slab_error *error);
 /* sheet_text.c: the include file. The caller checks the stream. */
 void sheet_print(const struct sheet *sheet, const struct include_text *text, FILE *out);
 
-/* sheet_macros.c: the macros of the include, with @ for the lamp's name. */
-extern const char sheet_macros[];
+/* sheet_macros.c: the macros of the include, with @ for the lamp's name; and how the one that
+ * scenes call goes on (include_canned). */
+extern const char sheet_macros[], sheet_canned[];
 
 #endif

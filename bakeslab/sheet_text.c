@@ -16,9 +16,9 @@ static void print_limits(const struct sheet *sheet, FILE *out) {
   fputs("// Limits:  Surfaces may not come closer to the aperture than the sheet (tables\n"
         "//          below). POV-Ray ignores shadows closer than 0.001 units to a light, so\n"
         "//          there is a smallest Scale; use larger scene units for small lamps.\n"
-        "//          It tests boxes in single precision: keep the lamp within 1000 of its\n"
-        "//          widths of the origin. Not in a light_group, not with shadowless, quality\n"
-        "//          +Q4 or better.\n"
+        "//          It tests boxes in single precision: keep the lamp and what it lights within\n"
+        "//          1000 of its widths of the origin, and 1e9 units wide at most. Not in a\n"
+        "//          light_group, not with shadowless, quality +Q4 or better.\n"
         "//          With an assumed_gamma other than 1.0 the image is still read right,\n"
         "//          but POV-Ray then adds light up wrongly.\n",
         out);
@@ -180,7 +180,9 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
           "// its lights look at it stand at this share of its height, or so far before it.\n"
           "#declare %s_Least_Height = %g;\n#declare %s_Gate = %g;\n#declare %s_Gap = %g;\n\n",
           text->name, sheet_least_height, text->name, sheet_gate, text->name, sheet_gap);
-  include_strength(text->name, out);
+  include_checks(text->name, out);
   include_named(sheet_macros, text->name, out);
+  include_canned(text->name, out);
+  include_named(sheet_canned, text->name, out);
   include_end(text, sheet->stamp, out);
 }

@@ -25,7 +25,7 @@ double chain_random(uint64_t *state) {
   return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-static void random_frame(uint64_t *state, double frame[3][3]) {
+void chain_frame(uint64_t *state, double frame[3][3]) {
   for (int k = 0; k < 3; ++k) {
     double size;
     do {
@@ -40,7 +40,7 @@ static void random_frame(uint64_t *state, double frame[3][3]) {
   }
 }
 
-static double handedness(const double x[3], const double y[3], const double z[3]) {
+double chain_handedness(const double x[3], const double y[3], const double z[3]) {
   return (x[1] * y[2] - x[2] * y[1]) * z[0] + (x[2] * y[0] - x[0] * y[2]) * z[1] +
          (x[0] * y[1] - x[1] * y[0]) * z[2];
 }
@@ -57,8 +57,8 @@ struct slab chain_slab(const int samples[4], const double edges[2], const double
                        double distance, int mirrored, uint64_t seed) {
   struct slab slab = slab_default();
   double frame[3][3];
-  random_frame(&seed, frame);
-  int is_mirrored = handedness(frame[0], frame[1], frame[2]) < 0;
+  chain_frame(&seed, frame);
+  int is_mirrored = chain_handedness(frame[0], frame[1], frame[2]) < 0;
   for (int c = 0; c < 3; ++c) {
     slab.u[c] = edges[0] * frame[0][c];
     slab.v[c] = edges[1] * frame[1][c];
@@ -296,6 +296,10 @@ void chain_include(const struct slab *pages, int count, const char *name, const 
 }
 
 void chain_scene(const struct chain_plane *plane, const char *lights) {
+  chain_scene_in(plane, 1, lights);
+}
+
+void chain_scene_in(const struct chain_plane *plane, double pigment, const char *lights) {
   FILE *file = fopen(chain_path("scene.pov"), "w");
   assert_non_null(file);
   const double *p = plane->center, *n = plane->normal, *a = plane->across, *d = plane->down;
@@ -304,9 +308,9 @@ void chain_scene(const struct chain_plane *plane, const char *lights) {
           "camera { orthographic location <%.17g, %.17g, %.17g> direction <%.17g, %.17g, %.17g>\n"
           "  right <%.17g, %.17g, %.17g> up <%.17g, %.17g, %.17g> }\n"
           "plane { <%.17g, %.17g, %.17g>, %.17g\n"
-          "  pigment { rgb 1 } finish { diffuse 1 ambient 0 } }\n%s\n",
+          "  pigment { rgb %.9g } finish { diffuse 1 ambient 0 } }\n%s\n",
           p[0] + 50 * n[0], p[1] + 50 * n[1], p[2] + 50 * n[2], -n[0], -n[1], -n[2], a[0], a[1],
-          a[2], -d[0], -d[1], -d[2], n[0], n[1], n[2], chain_dot(p, n), lights);
+          a[2], -d[0], -d[1], -d[2], n[0], n[1], n[2], chain_dot(p, n), pigment, lights);
   assert_int_equal(fclose(file), 0);
 }
 

@@ -18,6 +18,10 @@ double chain_dot(const double x[3], const double y[3]);
 double chain_length(const double x[3]);
 double chain_random(uint64_t *state); /* [0, 1) */
 
+/* Three unit vectors perpendicular to each other, and their triple product. */
+void chain_frame(uint64_t *state, double frame[3][3]);
+double chain_handedness(const double x[3], const double y[3], const double z[3]);
+
 /* ---- Slabs; free with slab_free ---- */
 
 /* Independent samples, log-uniform from 0.1 to 100. */
@@ -81,8 +85,10 @@ const char *chain_log(void);
 /* Writes slabs to NAME-slab.exr, whose floats are exact, and makes NAME.inc. */
 void chain_include(const struct slab *pages, int count, const char *name, const char *options);
 
-/* Writes scene.pov: the plane, seen by pixel centres, under `lights`. */
+/* Writes scene.pov: the plane, white or of another pigment, seen by pixel centres, under
+ * `lights`. */
 void chain_scene(const struct chain_plane *plane, const char *lights);
+void chain_scene_in(const struct chain_plane *plane, double pigment, const char *lights);
 
 /* The SDL that places "Test_Lamp_Canned" as `lamp` says; and that includes "lamp.inc"
  * and places several. */

@@ -65,7 +65,7 @@ static void expect_says(const struct chain_lamp *lamp, const char *sdl, int stat
 /* From the edge of the shadow tolerance, 0.0011 of a sheet's height, to huge units. */
 static void test_scales(void **state) {
   (void)state;
-  static const double scales[] = {1.001, 2.1, 1e6, 1e12};
+  static const double scales[] = {1.001, 2.1, 1e6, 5e10};
   for (int d = 0; d < 2; ++d) {
     struct slab slab = make_slab(d ? 2 : INFINITY, 3);
     double pitch = edges[1] / samples[1];
