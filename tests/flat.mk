@@ -62,15 +62,17 @@ bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(TRADEOFF_LAMPS) $(DE
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
 
 # EFFORT: seeds of each row, in proportion; CASE: one row and seed again, with all numbers.
+# Rows of POV-Ray's side are called pov-.
 NUMERICS := $(B)/tests/numerics/test_numerics
+HARD := $(B)/tests/chain/test_hard
 EFFORT ?= 8
 
 .PHONY: stability
-stability: $(NUMERICS) $(B)/tests/chain/test_stability $(BIN) ## sweep hard cases of the sums; CASE='ROW SEED' repeats one
+stability: $(NUMERICS) $(HARD) $(BIN) ## sweep hard cases of the sums and of POV-Ray; CASE='ROW SEED' repeats one
 	@mkdir -p build/stability
-	@$(NUMERICS) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/index.html build/stability/growth.txt)
+	$(if $(filter pov-%,$(CASE)),,@$(NUMERICS) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/index.html build/stability/growth.txt))
 	$(if $(CASE),,@! command -v gnuplot >/dev/null || tests/numerics/growth.sh build/stability/growth.txt build/stability/growth.png)
-	$(if $(CASE),,@echo && echo "POV-Ray's side, relative RMSE:" && $(TEST_ENV) $(B)/tests/chain/test_stability)
+	$(if $(filter-out pov-%,$(firstword $(CASE))),,@$(TEST_ENV) $(HARD) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/povray.html))
 
 lint: $(B)/flags ## check formatting, static analysis and house rules
 	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint.sh

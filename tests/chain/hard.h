@@ -59,7 +59,7 @@ void hard_free(struct hard_case *lit);
 
 /* A picture's radiance E/pi, and how far it may be off for reasons of its own: light at an
  * edge of a window or of a shadow, and what half floats cannot hold. Pixels that are too
- * close to a lamp to be compared are infinitely in doubt. */
+ * close to a lamp to be compared, or where nothing is stated, are infinitely in doubt. */
 struct hard_sum {
   double rgb[HARD_MOST_PIXELS][3], doubt[HARD_MOST_PIXELS];
 };

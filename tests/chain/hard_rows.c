@@ -109,8 +109,9 @@ static void to_scene(const struct hard_lamp *lamp, const double x[3], double ori
              origin * lamp->matrix[9 + c];
 }
 
-/* The lit part of the plane `widths` away, parallel to the aperture; or, not squarely, a part
- * of it, turned by up to a radian, around a ray that leaves the middle of the aperture. */
+/* What covers the lit part of the plane `widths` away, parallel to the aperture, askew so that
+ * no row of pixels follows an edge; or, not squarely, a part of it, turned by up to a radian,
+ * around a ray that leaves the middle of the aperture. */
 static void face(uint64_t *seed, double widths, bool squarely, struct hard_case *lit) {
   const struct slab *page = &lit->pages[0];
   const double *w = page->st_window;
@@ -143,9 +144,11 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
     to_scene(&lit->lamps[0], frame[k], 0, turned[k]);
   }
   to_scene(&lit->lamps[0], middle, 1, lit->plane.center);
+  double angle = squarely ? 0.4 : 0, co = cos(angle), si = sin(angle);
+  double across = co * size[0] + si * size[1], down = si * size[0] + co * size[1];
   for (int c = 0; c < 3; ++c) {
-    lit->plane.across[c] = size[0] * turned[0][c];
-    lit->plane.down[c] = size[1] * turned[1][c];
+    lit->plane.across[c] = across * (co * turned[0][c] + si * turned[1][c]);
+    lit->plane.down[c] = down * (co * turned[1][c] - si * turned[0][c]);
     lit->plane.normal[c] = turned[2][c] / lit->lamps[0].scale;
   }
 }

@@ -183,6 +183,18 @@ static double peak_of(const struct slab *slab) {
 
 /* ---- A sheet's lights, or the slab's integral as many more ---- */
 
+/* Whether a point is where light of the page may come, and errors are stated. */
+static bool lit_there(const struct standing *standing, const struct slab *slab,
+                      const double local[3]) {
+  double spread = fabs(1 - local[2] / standing->scale / slab->st_distance);
+  for (int k = 0; k < 2; ++k) {
+    const double *w = slab->st_window + 2 * k;
+    double rim = spread * standing->edges[k] / 2;
+    if (local[k] < local[2] * w[0] - rim || local[k] > local[2] * w[1] + rim) return false;
+  }
+  return true;
+}
+
 static void add_views(const struct hard_case *lit, int n, int p, const struct slab *slab,
                       const int points[2], struct hard_sum *sum) {
   const struct hard_lamp *lamp = &lit->lamps[n];
@@ -194,7 +206,8 @@ static void add_views(const struct hard_case *lit, int n, int p, const struct sl
     double at[3], local[3];
     hard_pixel(lit, k, at);
     into(&standing, at, local);
-    if (fabs(local[2]) < lowest) sum->doubt[k] = INFINITY;
+    if (fabs(local[2]) < lowest || (lit->stated && !lit_there(&standing, slab, local)))
+      sum->doubt[k] = INFINITY;
     for (int m = 0; m < points[0] * points[1] && local[2] > 0; ++m) {
       double from[3], place[2], slope[2], radiance[3], r2 = local[2] * local[2], facing = 0;
       for (int c = 0; c < 2; ++c) {
