@@ -46,7 +46,7 @@ static const char help_text[] =
     "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light";
 
 enum { DEFAULT_CLUSTER = 16 };
-static const double default_distance = 4;
+static const double default_distance = 4, least_distance = 0.01, most_distance = 1e6;
 
 struct arguments {
   const char *slab;
@@ -110,7 +110,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
     return 0;
   case 'l':
     if (!cli_parse_size(value, size) || size[0] != size[1])
-      argp_error(state, "--lights %s: must be a whole number from 1", value);
+      argp_error(state, "--lights %s: must be a whole number from 1 to 65536", value);
     arguments->lights = size[0];
     return 0;
   case KEY_TOLERANCE:
@@ -118,6 +118,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
     return 0;
   case KEY_DISTANCE:
     arguments->distance = cli_parse_positive(state, "--distance", value);
+    if (arguments->distance < least_distance || arguments->distance > most_distance)
+      argp_error(state, "--distance %s: must be from %g to %g aperture widths", value,
+                 least_distance, most_distance);
     return 0;
   case 'n':
     arguments->name = value;

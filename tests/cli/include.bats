@@ -89,4 +89,6 @@ setup() {
   misused '--lights: the far field is one light' --mode point --lights 4
   misused '--tolerance -1: must be a positive number' --tolerance -1
   misused '--distance nan: must be a positive number' --distance nan
+  misused '--distance 1e-200: must be from 0.01 to 1e+06 aperture widths' --mode point --distance 1e-200
+  misused '--distance 1e300: must be from 0.01 to 1e+06 aperture widths' --mode cluster --distance 1e300
 }
