@@ -154,8 +154,8 @@ void include_image(const struct include_text *text, const char *mapping,
 
 const double include_most_width = 1e9;
 
-/* POV-Ray's str() has room for 127 characters, its <= and >= take 1e-10 for nothing, NaN for
- * anything; < and > do neither. */
+/* POV-Ray's str() and #error have room for about 127 characters, its <= and >= take 1e-10 for
+ * nothing, NaN for anything; < and > do neither. */
 void include_checks(const char *name, FILE *out) {
   fprintf(out, "#declare %s_Most_Width = %g;  // of a lamp in the scene\n\n", name,
           include_most_width);
@@ -188,8 +188,8 @@ void include_checks(const char *name, FILE *out) {
       "// units from the origin.\n"
       "#macro @_Fits(Width_)\n"
       "  #if (!(Width_ < 1.001*@_Most_Width))\n"
-      "    #error concat(\"@_Canned: too large for POV-Ray, whose objects end 1e10 units from\",\n"
-      "      \" the origin: use a smaller Scale, or smaller scene units\\n\")\n"
+      "    #error concat(\"@_Canned: too large for POV-Ray, whose objects end at 1e10:\",\n"
+      "      \" use a smaller Scale\\n\")\n"
       "  #end\n"
       "#end\n\n",
       name, out);
