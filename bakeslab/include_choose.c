@@ -99,7 +99,10 @@ static void describe(const struct offer *offer, char *text, size_t size) {
              offer->lights > 1 ? "s" : "", offer->points, offer->points > 1 ? "s" : "");
   else
     snprintf(what, sizeof what, "point");
-  snprintf(text, size, "%s: %.2g %% off, cost %.3g", what, 100 * offer->error, offer->cost);
+  if (isfinite(offer->error))
+    snprintf(text, size, "%s: %.2g %% off, cost %.3g", what, 100 * offer->error, offer->cost);
+  else
+    snprintf(text, size, "%s: stands farther away", what);
 }
 
 /* The offers that explain the choice: of each other kind the cheapest that would do,
@@ -140,6 +143,11 @@ static enum slab_result none_meets(const struct offers *offers, double tolerance
   int closest = 0;
   for (int k = 1; k < offers->count; ++k)
     if (offers->list[k].error < offers->list[closest].error) closest = k;
+  if (!isfinite(offers->list[closest].error))
+    return slab_fail(error, SLAB_BAD,
+                     "sheets stand farther away than %g aperture widths; ask for a larger "
+                     "--distance, or for --mode auto",
+                     distance);
   describe(&offers->list[closest], text, sizeof text);
   return slab_fail(error, SLAB_BAD,
                    "no light is within %g at %g aperture widths; closest is the %s: ask for "

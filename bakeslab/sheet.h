@@ -42,7 +42,7 @@ struct sheet_level {
   double height;     /* of the sheet before its lights, at Scale 1 */
   int lit;           /* lights whose view is not entirely black */
   char *mask;        /* '1' for a lit light, '0' for a black one, Nv rows of Nu; owned */
-  double error[SHEET_DISTANCES]; /* relative RMSE of the irradiance */
+  double error[SHEET_DISTANCES]; /* relative RMSE of the irradiance, or INFINITY: too near */
 };
 
 struct sheet_page {

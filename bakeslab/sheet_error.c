@@ -30,8 +30,10 @@ void sheet_measure_at(const struct slab *slab, const struct sheet_level *levels,
       plane_receiver(&plane, column, row, at);
       add_receiver(slab, levels, count, &plane, at, errors);
     }
-  for (int k = 0; k < count; ++k)
+  for (int k = 0; k < count; ++k) {
     errors[k] = errors[count] > 0 ? sqrt(errors[k] / errors[count]) : 0;
+    if (levels[k].height >= plane.distance) errors[k] = INFINITY;
+  }
 }
 
 enum slab_result sheet_measure(const struct slab *slab, struct sheet_level *levels, int count,

@@ -9,7 +9,8 @@
 #include "sheet.h"
 
 /* Sets `error[]` of each level: root of the mean squared error over the plane,
- * relative to the root of the mean squared irradiance. */
+ * relative to the root of the mean squared irradiance. INFINITY where the sheet stands
+ * behind the plane. */
 enum slab_result sheet_measure(const struct slab *slab, struct sheet_level *levels, int count,
                                struct slab_error *error);
 

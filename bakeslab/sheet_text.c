@@ -45,6 +45,13 @@ static void print_faint(const struct sheet_page *page, FILE *out) {
             reach);
 }
 
+static void print_error(double error, FILE *out) {
+  if (isfinite(error))
+    fprintf(out, " %6.3g", 100 * error);
+  else
+    fputs("      -", out);
+}
+
 static void print_table(const struct sheet *sheet, FILE *out) {
   for (int p = 0; p < sheet->page_count; ++p) {
     const struct sheet_page *page = &sheet->pages[p];
@@ -58,7 +65,7 @@ static void print_table(const struct sheet *sheet, FILE *out) {
             page->flux[0], page->flux[1], page->flux[2], slab_flux_unit(slab));
     print_faint(page, out);
     fputs("//   error of the irradiance (relative RMSE) in %, on a plane so many aperture\n"
-          "//   widths away; height of the sheet; smallest Scale\n"
+          "//   widths away (-: the sheet is farther); height of the sheet; smallest Scale\n"
           "//   lights    lit of          0.5      1      2      4      8    height  Scale >=\n",
           out);
     for (int k = 0; k < page->level_count; ++k) {
@@ -67,7 +74,7 @@ static void print_table(const struct sheet *sheet, FILE *out) {
       char size[32];
       snprintf(size, sizeof size, "%dx%d", lights[SLAB_U], lights[SLAB_V]);
       fprintf(out, "//   %-8s %5d of %-5d ", size, level->lit, lights[SLAB_U] * lights[SLAB_V]);
-      for (int d = 0; d < SHEET_DISTANCES; ++d) fprintf(out, " %6.3g", 100 * level->error[d]);
+      for (int d = 0; d < SHEET_DISTANCES; ++d) print_error(level->error[d], out);
       fprintf(out, "  %8.3g  %8.3g\n", level->height, sheet_least_height / level->height);
     }
   }

@@ -81,7 +81,8 @@ void hard_pixel(const struct hard_case *lit, int pixel, double at[3]);
 /* Reads `count` numbers after the text, from the include; false where there are fewer. */
 bool hard_numbers(const char *after, double *numbers, int count);
 
-/* The error that the header states at a distance in widths, or -1. */
+/* The error that the header states at a distance in widths, INFINITY where it says that a
+ * sheet is farther away, or -1. */
 double hard_stated(const struct hard_case *lit);
 
 /* ---- hard_rows.c: the kinds of hard cases. */

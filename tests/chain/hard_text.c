@@ -37,16 +37,20 @@ bool hard_numbers(const char *after, double *numbers, int count) {
 double hard_stated(const struct hard_case *lit) {
   static const double of_sheets[] = {0.5, 1, 2, 4, 8};
   const char *text = content("lamp.inc");
-  double numbers[7], stated = -1;
+  double numbers[6], stated = -1;
   if (lit->kind == HARD_SHEET) {
     char line[64];
     int lights[2];
     hard_lights(lit, &lit->pages[0], lights);
     snprintf(line, sizeof line, "\n//   %dx%d ", lights[0], lights[1]);
     text = strstr(text, line);
-    if (!text || !scan(text + strlen(line), numbers, 7)) return -1;
+    char cells[5][16];
+    if (!text || sscanf(text + strlen(line), "%*d of %*d %15s %15s %15s %15s %15s", cells[0],
+                        cells[1], cells[2], cells[3], cells[4]) != 5)
+      return -1;
     for (int k = 0; k < 5; ++k)
-      if (of_sheets[k] == lit->away) stated = numbers[2 + k];
+      if (of_sheets[k] == lit->away)
+        stated = strcmp(cells[k], "-") ? strtod(cells[k], NULL) : INFINITY;
   } else {
     text = strstr(text, "away:");
     if (!text || !scan(text, numbers, 6)) return -1;
