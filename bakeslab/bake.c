@@ -73,19 +73,28 @@ static enum slab_result choose_form(const struct bake_options *options, const st
 /* ---- The slab ---- */
 
 /* The lamp's visible housing as SDL, where the script declares one that stands alone. */
-static char *find_housing(const struct bake_work *work, struct bake_report *report) {
+static enum slab_result find_housing(const struct bake_work *work, struct bake_report *report,
+                                     char **housing, struct slab_error *error) {
   char *script = files_read(work->source->folder, strrchr(work->source->path, '/') + 1);
-  char *housing = script ? housing_find(script) : NULL;
   char *scratch = NULL;
-  if (housing && !bake_store_scratch(work->store, &scratch, NULL) &&
-      !housing_parses(work->povray, housing, scratch)) {
+  if (!script) return slab_fail(error, SLAB_IO, "%s: %s", work->source->script, strerror(errno));
+  errno = 0;
+  *housing = housing_find(script);
+  enum slab_result result = SLAB_OK;
+  if (*housing)
+    result = bake_store_scratch(work->store, &scratch, error);
+  else if (errno == ENOMEM)
+    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (*housing && !result) result = housing_parses(work->povray, *housing, scratch, error);
+  if (result == SLAB_BAD) {
     report->housing_left_out = true;
-    free(housing);
-    housing = NULL;
+    free(*housing);
+    *housing = NULL;
+    result = SLAB_OK;
   }
   free(scratch);
   free(script);
-  return housing;
+  return result;
 }
 
 /* What the samples say of the slab: where it cuts light off, and its own error at the
@@ -119,10 +128,7 @@ static enum slab_result write_slab(const struct bake_work *work, struct bake_sta
   int count = state->lamp.slab_count;
   bake_sum_noise(state->rounds.sum, work->look.gain, &state->origin.noise);
   enum slab_result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
-  errno = 0;
-  state->origin.housing = result ? NULL : find_housing(work, report);
-  if (!result && !state->origin.housing && errno == ENOMEM)
-    result = slab_fail(error, SLAB_MEMORY, "out of memory");
+  if (!result) result = find_housing(work, report, &state->origin.housing, error);
   char *text = bake_provenance(work, &state->origin);
   if (!result && !text) result = slab_fail(error, SLAB_MEMORY, "out of memory");
   for (int n = 0; n < count && !result; ++n) {

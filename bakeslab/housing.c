@@ -261,19 +261,23 @@ bool housing_is_harmless(const char *text) {
   return braces == 0 && blocks == 0;
 }
 
-bool housing_parses(const struct povray *povray, const char *housing, const char *directory) {
+enum slab_result housing_parses(const struct povray *povray, const char *housing,
+                                const char *directory, struct slab_error *error) {
   struct povray_job job = {.directory = directory, .width = 4, .height = 4, .frames = 1};
   char *scene = NULL;
   if (asprintf(&scene,
                "#version 3.7;\n#macro Housing()\n%s\n#end\nobject { Housing() }\n"
                "camera { location -z direction z }\n",
                housing) < 0)
-    return false;
+    return slab_fail(error, SLAB_MEMORY, "out of memory");
   files_remove_tree(directory);
-  bool parses = !files_make_directory(directory, NULL) &&
-                !files_write(directory, "scene.pov", scene, NULL) &&
-                !povray_run(povray, &job, NULL);
+  enum slab_result result = files_make_directory(directory, error);
+  if (!result) result = files_write(directory, "scene.pov", scene, error);
+  if (!result) result = povray_run(povray, &job, error);
+  /* A picture that cannot be written says nothing about the text. */
+  if (result == SLAB_BAD && strstr(error->text, "Fatal error") && !strstr(error->text, "in parser"))
+    result = SLAB_IO;
   files_remove_tree(directory);
   free(scene);
-  return parses;
+  return result;
 }

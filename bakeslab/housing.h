@@ -11,15 +11,16 @@
  * The text is empty, which does not parse, where the script alone does not tell what the
  * housing is: it, or a name that it needs, is declared twice or inside #if, #while, #macro
  * and the like. The caller frees it. */
-char *housing_find(const char *script);
+char *housing_find(const char *script); /* NULL and errno ENOMEM: no memory */
 
 /* Whether SDL that came with a slab file can do no more inside a macro than draw: braces
  * and blocks are closed, and there is no directive but #local, #if, #for, #while and their
  * kind; none that opens files, declares macros or ends the macro it stands in. */
 bool housing_is_harmless(const char *text);
 
-/* Whether the text parses by itself; renders a tiny scene in `directory`, which is made
+/* SLAB_BAD: the text does not parse by itself. Renders a tiny scene in `directory`, which is made
  * and removed. */
-bool housing_parses(const struct povray *povray, const char *housing, const char *directory);
+enum slab_result housing_parses(const struct povray *povray, const char *housing,
+                                const char *directory, struct slab_error *error);
 
 #endif

@@ -1,1 +1,2 @@
 #include "canned.inc"
+#declare Canned_Housing = sphere { 0, 1 }
