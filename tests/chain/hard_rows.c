@@ -157,8 +157,17 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
  * may be in the scene. */
 static const double farthest[HARD_KINDS] = {3, 6, 4}, widest = 1e9;
 
+/* So many widths away, but not before a sheet, which stands far away where windows are narrow. */
+static void look_from(uint64_t *seed, double widths, struct hard_case *lit) {
+  const struct slab *page = &lit->pages[0];
+  int lights[2];
+  hard_lights(lit, page, lights);
+  double nearest = lit->kind == HARD_SHEET ? 2 * hard_height(page, lights) / hard_width(page) : 0;
+  face(seed, fmax(widths, nearest), false, lit);
+}
+
 static void look_at_it(uint64_t *seed, struct hard_case *lit) {
-  face(seed, decades(seed, -0.3, 1.3), false, lit);
+  look_from(seed, decades(seed, -0.3, 1.3), lit);
 }
 
 /* ---- Rows ---- */
@@ -261,7 +270,7 @@ static void row_st_plane(uint64_t *seed, struct hard_case *lit) {
   lit->lamps[0].scale = fmax(1, 1.1 * least_scale(lit));
   lit->expect = HARD_EITHER;
   double there = fmin(slab->st_distance / hard_width(slab), pow(10, farthest[lit->kind] - 0.5));
-  face(seed, choose(seed, 2) ? decades(seed, -0.3, 1.3) : there, false, lit);
+  look_from(seed, choose(seed, 2) ? decades(seed, -0.3, 1.3) : there, lit);
 }
 
 static void row_lights(uint64_t *seed, struct hard_case *lit) {

@@ -147,6 +147,7 @@ static void compare(const struct hard_case *lit, const struct hard_sum *sum, dou
   }
   result->error = difference(lit, &picture, sum, pigment, &compared);
   bool right = result->error <= result->allowed && isinf(result->allowed) == too_near(lit);
+  if (compared == 0 && !too_near(lit)) right = false; /* it would say nothing */
   judge(result, right ? HARD_RIGHT : HARD_MISSED, "error %.3g, %.3g allowed, %d pixels",
         result->error, result->allowed, compared);
   if (isinf(result->allowed)) result->error = 0; /* of which nothing is claimed */
