@@ -48,6 +48,7 @@ struct hard_case {
 struct hard_result {
   enum hard_expect verdict;
   double error, allowed;
+  bool dark;     /* right, and there is no light to see */
   char why[300]; /* of what is not right */
 };
 

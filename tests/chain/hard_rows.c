@@ -128,7 +128,8 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
     for (int c = 0; c < 3; ++c) frame[k][c] = axis[c] / edge;
   }
   /* A little of a random frame turns it; Gram and Schmidt keep it a frame. */
-  for (int c = 0; c < 3; ++c) frame[2][c] = -page->normal[c];
+  for (int c = 0; c < 3; ++c)
+    frame[2][c] = squarely ? -page->normal[c] : (page->center[c] - middle[c]) / away;
   if (!squarely) {
     double other[3][3], tilt = between(seed, 0, 0.8);
     chain_frame(seed, other);

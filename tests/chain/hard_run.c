@@ -166,6 +166,7 @@ void hard_run(const struct hard_case *lit, struct hard_result *result) {
     double pigment = most > 0 ? fmin(fmax(1 / most, 1e-35), 1e35) : 1;
     if (result->verdict != HARD_MISSED && render(lit, pigment, result))
       compare(lit, &sum, pigment, result);
+    result->dark = most == 0 && result->verdict == HARD_RIGHT;
   }
   if (lit->expect == HARD_EITHER || result->verdict == HARD_MISSED ||
       result->verdict == lit->expect)

@@ -17,7 +17,7 @@ enum { MOST_ROWS = 24, SEEDS = 6 };
 
 /* What became of a row's cases of one kind. */
 struct tally {
-  int cases, refused, missed;
+  int cases, refused, missed, dark;
   double error, share; /* the worst of those that are right */
 };
 typedef struct tally table[MOST_ROWS][HARD_KINDS];
@@ -30,6 +30,7 @@ static void run(int row, uint32_t seed, table sums) {
   struct tally *tally = &sums[row][lit.kind];
   ++tally->cases;
   tally->refused += result.verdict == HARD_REFUSED;
+  tally->dark += result.dark;
   if (result.verdict == HARD_RIGHT) {
     tally->error = fmax(tally->error, result.error);
     tally->share = fmax(tally->share, result.error / result.allowed);
@@ -81,6 +82,7 @@ static void merge(table from, table to) {
       to[row][k].cases += from[row][k].cases;
       to[row][k].refused += from[row][k].refused;
       to[row][k].missed += from[row][k].missed;
+      to[row][k].dark += from[row][k].dark;
       to[row][k].error = fmax(to[row][k].error, from[row][k].error);
       to[row][k].share = fmax(to[row][k].share, from[row][k].share);
     }
@@ -141,7 +143,7 @@ static int sweep(int effort, int jobs, const char *path) {
       exit(0);
     }
   }
-  int status, failed = 0, cases = 0, refused = 0, missed = 0;
+  int status, failed = 0, cases = 0, refused = 0, missed = 0, dark = 0;
   while (wait(&status) > 0) failed += status != 0;
   for (int k = 0; k < jobs; ++k) merge(parts[k], all);
   print_text(all);
@@ -150,8 +152,10 @@ static int sweep(int effort, int jobs, const char *path) {
       cases += all[row][k].cases;
       refused += all[row][k].refused;
       missed += all[row][k].missed;
+      dark += all[row][k].dark;
     }
-  printf("%d cases by POV-Ray, %d refused, %d missed\n", cases, refused, missed);
+  printf("%d cases by POV-Ray, %d refused, %d missed; %d without light\n", cases, refused, missed,
+         dark);
   return !write_page(path, all) || missed > 0 || failed > 0;
 }
 
