@@ -26,7 +26,7 @@ const struct numerics_row numerics_rows[] = {
     {"switches", "both sides of a change of rules, nodes or micro lights", "itself", row_switches,
      60},
     {"growth", "small steps along each kind of hardness: no jump of the error", QUADRATURE,
-     row_growth, 8},
+     row_growth, 3},
     {"constant", "radiance 1", "Lambert's polygon formula", row_constant, 20},
     {"mpmath", "a table of hard cases", "mpmath, 50 digits", row_mpmath, 6},
     {"strips", "lines of uv and st merged, hat functions", "exact rationals", row_strips, 20},
