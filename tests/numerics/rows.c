@@ -36,7 +36,7 @@ const struct numerics_row numerics_rows[] = {
     {"powers", "lengths and samples times powers of two: the same bits", "itself", row_powers, 60},
     {"symmetry", "mirrored, u and v swapped, turned by 90 degrees", "itself", row_symmetry, 60},
     {"neighbours", "receivers in another order, in other groups: the same bits", "itself",
-     row_neighbours, 10},
+     row_neighbours, 3},
     {"superposition", "sums and differences of samples", "itself", row_superposition, 60},
 };
 const int numerics_row_count = sizeof numerics_rows / sizeof numerics_rows[0];

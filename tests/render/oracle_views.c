@@ -94,10 +94,25 @@ static void add_change(const struct slab *slab, const struct ray *ray, long doub
   for (int c = 0; c < 3; ++c) error[c] += most[c];
 }
 
+/* Both directions at once: in the window's corners neither alone brings light. */
+static void add_corners(const struct slab *slab, struct ray *ray, const long double by[2], int i,
+                        int j, long double error[3]) {
+  long double middle[3], moved[3], most[3] = {0};
+  look_up(slab, ray, i, j, middle);
+  for (int corner = 0; corner < 4; ++corner) {
+    for (int axis = 0; axis < 2; ++axis) ray->st[axis] = corner >> axis & 1 ? by[axis] : -by[axis];
+    look_up(slab, ray, i, j, moved);
+    for (int c = 0; c < 3; ++c) most[c] = fmaxl(most[c], fabsl(moved[c] - middle[c]));
+  }
+  for (int axis = 0; axis < 2; ++axis) ray->st[axis] = 0;
+  for (int c = 0; c < 3; ++c) error[c] += most[c];
+}
+
 static void add_changes(const struct slab *slab, struct ray *ray, int i, int j,
                         long double error[3]) {
   const long double *p = ray->place.p, far = hypotl(hypotl(p[0], p[1]), p[2]);
   const long double kappa = isinf(slab->st_distance) ? 0 : 1 / (long double)slab->st_distance;
+  long double by[2];
   for (int axis = 0; axis < 3; ++axis) {
     const long double at = axis < 2 ? fabsl(ray->at[axis]) : 0;
     add_change(slab, ray, &ray->place.p[axis], single * (far + at), i, j, error);
@@ -106,8 +121,9 @@ static void add_changes(const struct slab *slab, struct ray *ray, int i, int j,
     const double *window = slab->st_window + 2 * axis;
     const long double size = fabsl(kappa * at) + fabsl(slope_of(ray, axis)) +
                              (long double)fabs(window[0]) + (long double)fabs(window[1]);
-    add_change(slab, ray, &ray->st[axis], single * size, i, j, error);
+    by[axis] = single * size;
   }
+  add_corners(slab, ray, by, i, j, error);
 }
 
 void oracle_view(const struct slab *slab, const struct oracle_place *place, int i, int j,
