@@ -73,6 +73,8 @@ bool hard_add(const struct hard_case *lit, struct hard_sum *sum);
 double hard_height(const struct slab *page, const int lights[2]);
 void hard_lights(const struct hard_case *lit, const struct slab *page, int lights[2]);
 double hard_width(const struct slab *page);
+/* The radius of a far field's sphere, at Scale 1, of a lamp so wide. */
+double hard_radius(const struct hard_lamp *lamp, double width);
 
 /* The middle of a pixel. */
 void hard_pixel(const struct hard_case *lit, int pixel, double at[3]);

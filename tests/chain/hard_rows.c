@@ -158,12 +158,16 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
  * may be in the scene. */
 static const double farthest[HARD_KINDS] = {3, 6, 4}, widest = 1e9;
 
-/* So many widths away, but not before a sheet, which stands far away where windows are narrow. */
+/* So many widths away, but not before a sheet, which stands far away where windows are narrow, not
+ * among a cluster's points, and not beside a sphere, which is large where the lamp is small. */
 static void look_from(uint64_t *seed, double widths, struct hard_case *lit) {
   const struct slab *page = &lit->pages[0];
   int lights[2];
   hard_lights(lit, page, lights);
-  double nearest = lit->kind == HARD_SHEET ? 2 * hard_height(page, lights) / hard_width(page) : 0;
+  double width = hard_width(page), nearest = 0;
+  if (lit->kind == HARD_SHEET) nearest = 2 * hard_height(page, lights) / width;
+  if (lit->kind == HARD_CLUSTER) nearest = 0.4;
+  if (lit->kind == HARD_POINT) nearest = 8 * hard_radius(&lit->lamps[0], width) / width;
   face(seed, fmax(widths, nearest), false, lit);
 }
 
@@ -205,7 +209,8 @@ static void row_units(uint64_t *seed, struct hard_case *lit) {
   double wide = decades(seed, -3, 10);
   scale_page(&lit->pages[0], unit);
   lit->lamps[0].scale = wide / hard_width(&lit->pages[0]);
-  bool small = lit->lamps[0].scale<least_scale(lit), large = wide> 1.002 * widest;
+  bool small = least_scale(lit) > lit->lamps[0].scale;
+  bool large = wide > 1.002 * widest;
   for (int c = 0; c < 3; ++c) lit->lamps[0].gain[c] = decades(seed, -2, 20);
   double most = fmin(farthest[lit->kind], 9.8 - log10(wide));
   move_lamp(seed, decades(seed, -3, most), &lit->pages[0], &lit->lamps[0]);

@@ -346,6 +346,10 @@ static bool meets_sphere(const struct hard_lamp *lamp, const double numbers[12],
   return chain_length(relative) < 1.01 * radius * lamp->scale;
 }
 
+double hard_radius(const struct hard_lamp *lamp, double width) {
+  return fmax(0.05 * width, 0.002 / lamp->scale);
+}
+
 static void add_point(const struct hard_case *lit, int n, const struct slab_picture *picture,
                       const double numbers[16], struct hard_sum *sum) {
   const struct hard_lamp *lamp = &lit->lamps[n];
@@ -358,7 +362,7 @@ static void add_point(const struct hard_case *lit, int n, const struct slab_pict
     hard_pixel(lit, k, at);
     for (int c = 0; c < 3; ++c) away[c] = at[c] - center[c];
     double r = chain_length(away), facing = -chain_dot(away, lit->plane.normal) / r;
-    double radius = fmax(0.05, 0.002 / (lamp->scale * width)) * width;
+    double radius = hard_radius(lamp, width);
     if (r < 4 * radius * lamp->scale) sum->doubt[k] = INFINITY;
     if (facing <= 0) continue;
     for (int c = 0; c < 3; ++c) local[c] = chain_dot(away, axes[c]) / r;
