@@ -13,15 +13,17 @@ static const double half_normal = 6.1e-5, half_zero = 3e-8;
 static const double dropped = 1e-10;
 
 static void print_limits(const struct sheet *sheet, FILE *out) {
-  fputs("// Limits:  Surfaces may not come closer to the aperture than the sheet (tables\n"
-        "//          below). POV-Ray ignores shadows closer than 0.001 units to a light, so\n"
-        "//          there is a smallest Scale; use larger scene units for small lamps.\n"
-        "//          It tests boxes in single precision: keep the lamp and what it lights within\n"
-        "//          1000 of its widths of the origin, and 1e9 units wide at most. Not in a\n"
-        "//          light_group, not with shadowless, quality +Q4 or better.\n"
-        "//          With an assumed_gamma other than 1.0 the image is still read right,\n"
-        "//          but POV-Ray then adds light up wrongly.\n",
-        out);
+  fprintf(
+      out,
+      "// Limits:  Surfaces may not come closer to the aperture than the sheet (tables\n"
+      "//          below). POV-Ray ignores shadows closer than 0.001 units to a light, so\n"
+      "//          there is a smallest Scale; use larger scene units for small lamps.\n"
+      "//          It tests boxes in single precision: keep the lamp and what it lights within\n"
+      "//          1000 of its widths of the origin, and %g units wide at most. Not in a\n"
+      "//          light_group, not with shadowless, quality +Q4 or better.\n"
+      "//          With an assumed_gamma other than 1.0 the image is still read right,\n"
+      "//          but POV-Ray then adds light up wrongly.\n",
+      include_most_width);
   if (sheet->black_pages)
     fprintf(out, "//          %d page(s) of the lamp hold no light and were left out.\n",
             sheet->black_pages);

@@ -211,9 +211,8 @@ static void clear(const struct faults_command *command, bool old) {
 /* jansson 2.14 aborts by itself where the buffer of a word cannot grow: an assertion in load.c,
  * or what is left of its text without memory. Nothing of ours is to be done about it. */
 static bool is_jansson(const struct run *run) {
-  bool it = strstr(run->line, "load.c:") || !strcmp(run->line, "Unexpected error.");
-  faults_of_jansson += it;
-  return it;
+  return run->status < 0 &&
+         (strstr(run->line, "load.c:") || !strcmp(run->line, "Unexpected error."));
 }
 
 /* Why a run under a fault was not as it must be, or NULL. */
@@ -221,8 +220,7 @@ static const char *judge(const struct faults_command *command, const struct run 
                          const struct left *before, const struct run *whole) {
   char name[16];
   snprintf(name, sizeof name, "%.*s: ", (int)strcspn(command->line, " "), command->line);
-  if (run->status < 0 && is_jansson(run) && is_old_or_new(&run->left, before, &whole->left, false))
-    return NULL;
+  if (is_jansson(run) && is_old_or_new(&run->left, before, &whole->left, false)) return NULL;
   if (run->status < 0) return "crashed or did not end";
   if (run->status == 0) {
     if (!same(&run->left, &whole->left)) return "succeeded with other files";
@@ -251,6 +249,7 @@ static bool try_fault(const struct faults_command *command, enum kind kind, long
   const char *wrong = judge(command, &run, &before, whole);
   ++faults_tried;
   faults_told += run.status != 0;
+  faults_of_jansson += is_jansson(&run);
   if (!wrong && command->goes_on && run.status) wrong = go_on(command, whole);
   if (wrong)
     printf("# %s: %s %ld: %s (status %d, %d lines: %s)\n", command->name, kind_names[kind], number,
