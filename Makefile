@@ -3,7 +3,7 @@
 # $(B). A command line may set config, CC, CFLAGS, LDFLAGS, prefix, DESTDIR,
 # SETUP=no, V=1 (show every command) and T (see `make help`).
 
-VERSION := $(shell sed -n 's,^.define CANNED_VERSION "\(.*\)",\1,p' bakeslab/slab_cli.h)
+VERSION := $(shell sed -n 's,^.define CANNED_VERSION "\(.*\)",\1,p' bakeslab/cli/cli.h)
 config ?= release
 B := build/$(config)
 V :=
@@ -160,4 +160,4 @@ uninstall: ## remove what install put there
 clean: ## remove everything that was built
 	$(Q)rm -rf build
 
--include $(wildcard $(B)/*/*.d $(B)/*/*/*.d)
+-include $(shell find $(B) -name "*.d" 2>/dev/null)

@@ -1,7 +1,9 @@
 # The slab library (all that render/ may use), the rest of bakeslab, the
 # program and its man pages.
-SLAB_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard bakeslab/slab*.c))
-BAKE_OBJECTS := $(patsubst %.c,$(B)/%.o,$(filter-out bakeslab/slab%.c bakeslab/main.c,$(wildcard bakeslab/*.c)))
+SLAB_SOURCES := $(wildcard $(addprefix bakeslab/,base/*.c cli/*.c slab/*.c file/*.c))
+BAKE_SOURCES := $(filter-out $(SLAB_SOURCES) bakeslab/preload/%,$(wildcard bakeslab/*/*.c bakeslab/*/*/*.c))
+SLAB_OBJECTS := $(SLAB_SOURCES:%.c=$(B)/%.o)
+BAKE_OBJECTS := $(BAKE_SOURCES:%.c=$(B)/%.o)
 
 $(B)/libslab.a: $(SLAB_OBJECTS)
 $(B)/libbake.a: $(BAKE_OBJECTS)
@@ -13,7 +15,7 @@ $(BAKE_BIN): $(B)/bakeslab/main.o $(B)/libbake.a $(B)/libslab.a
 
 # bakeslab.1, one page a subcommand (from --help, so that they cannot differ),
 # and light-slab.5.
-BAKE_PAGES := $(B)/man/bakeslab.1 $(patsubst bakeslab/cmd_%.c,$(B)/man/bakeslab-%.1,$(wildcard bakeslab/cmd_*.c))
+BAKE_PAGES := $(B)/man/bakeslab.1 $(patsubst bakeslab/cmd/cmd_%.c,$(B)/man/bakeslab-%.1,$(wildcard bakeslab/cmd/cmd_*.c))
 MAN_PAGES := $(BAKE_PAGES) $(B)/man/light-slab.5
 
 DATE = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || date +%s))
@@ -22,13 +24,13 @@ DATE = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || 
 define man_page
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
-	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/man.sh $(filter $(BIN),$^) $* $(VERSION) >$@
+	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/cli/man.sh $(filter $(BIN),$^) $* $(VERSION) >$@
 endef
 
-$(BAKE_PAGES): $(B)/man/%.1: bakeslab/man.sh $(BAKE_BIN) | $(SETUP_FIRST)
+$(BAKE_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(BAKE_BIN) | $(SETUP_FIRST)
 	$(man_page)
 
-$(B)/man/%.5: bakeslab/%.5.scd | $(SETUP_FIRST)
+$(B)/man/%.5: bakeslab/file/%.5.scd | $(SETUP_FIRST)
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
 	$(Q)SOURCE_DATE_EPOCH=$(DATE) scdoc <$< >$@

@@ -1,6 +1,6 @@
 /* main.c - bakeslab: makes, inspects and converts light slabs. A table of
  * subcommands; each lives in its own cmd_NAME.c. */
-#include "cli.h"
+#include "cmd/slab_options.h"
 
 static const struct cli_command commands[] = {
     {"bake", cmd_bake, "render a lamp with POV-Ray into a light slab"},

@@ -1,16 +1,16 @@
 # The reference renderer: its library, the program and its man pages.
-RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(filter-out render/main.c,$(wildcard render/*.c)))
+RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c))
 
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
 
-# The shaders' texts, as C: gl_NAME_KIND of shaders/NAME.KIND.glsl.
-RENDER_OBJECTS += $(B)/render/gl_shaders.o
-$(B)/render/gl_shaders.c: $(sort $(wildcard render/shaders/*.glsl)) render/flat.mk
+# The shaders' texts, as C: gl_NAME_KIND of gl/shaders/NAME.KIND.glsl.
+RENDER_OBJECTS += $(B)/render/gl/gl_shaders.o
+$(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) render/flat.mk
 	@mkdir -p $(@D)
-	@{ echo '#include "gl_program.h"'; for f in $(filter %.glsl,$^); do \
+	@{ echo '#include "gl/gl_program.h"'; for f in $(filter %.glsl,$^); do \
 	  name=$${f##*/}; name=$${name%.glsl}; echo "const char gl_$${name%.*}_$${name#*.}[] ="; \
 	  sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $$f; echo ';'; done; } >$@
-$(B)/render/gl_shaders.o: $(B)/render/gl_shaders.c
+$(B)/render/gl/gl_shaders.o: $(B)/render/gl/gl_shaders.c
 	$(call say,CC,$<)
 	$(Q)$(CC) $(ALL_CFLAGS) $(RENDER_CFLAGS) -c $< -o $@
 
@@ -21,10 +21,10 @@ $(RENDER_BIN): $(B)/render/main.o $(B)/librender.a $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(RENDER_LIBS) $(ALL_LDLIBS) -o $@
 
-RENDER_PAGES := $(B)/man/renderslab.1 $(patsubst render/cmd_%.c,$(B)/man/renderslab-%.1,$(wildcard render/cmd_*.c))
+RENDER_PAGES := $(B)/man/renderslab.1 $(patsubst render/cmd/cmd_%.c,$(B)/man/renderslab-%.1,$(wildcard render/cmd/cmd_*.c))
 MAN_PAGES += $(RENDER_PAGES)
 
-$(RENDER_PAGES): $(B)/man/%.1: bakeslab/man.sh $(RENDER_BIN) | $(SETUP_FIRST)
+$(RENDER_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(RENDER_BIN) | $(SETUP_FIRST)
 	$(man_page)
 
 # Figures of the paper. The lamp at the paper's resolution is baked once: only another lamp
@@ -63,20 +63,20 @@ $(FIGURES)/parabolic_%.tif: lamps/parabolic_%.pov lamps/parabolic.pov include-po
 $(FIGURES)/parabolic_%.inc: $(FIGURES)/parabolic_%.tif
 	@$(BAKE_BIN) include $< -o $@
 
-$(FIGURES)/office.obj: include-pov/office.pov include-pov/office_shapes.inc render/figure6.sh | $(SETUP_FIRST)
+$(FIGURES)/office.obj: include-pov/office.pov include-pov/office_shapes.inc render/figures/figure6.sh | $(SETUP_FIRST)
 	@mkdir -p $(@D)
-	@render/figure6.sh mesh $(@D)
+	@render/figures/figure6.sh mesh $(@D)
 
 $(FIGURES)/figure6-%-povray.exr: $(FIGURES)/parabolic_%.inc $(FIGURES)/office.obj
 	@echo 'Rendering $@'
-	@render/figure6.sh by_povray $@ $(if $(filter large,$*),Declare=Large=1)
+	@render/figures/figure6.sh by_povray $@ $(if $(filter large,$*),Declare=Large=1)
 
 $(FIGURES)/figure6-%-renderslab.exr: $(FIGURES)/parabolic_%.tif $(FIGURES)/office.obj $(RENDER_BIN)
 	@echo 'Rendering $@'
-	@RENDERSLAB=$(RENDER_BIN) render/figure6.sh by_renderslab $< $@
+	@RENDERSLAB=$(RENDER_BIN) render/figures/figure6.sh by_renderslab $< $@
 
 $(FIGURES)/figure6.txt: $(foreach lamp,small large,$(FIGURES)/figure6-$(lamp)-povray.exr $(FIGURES)/figure6-$(lamp)-renderslab.exr)
-	@render/figure6.sh compare $(@D) >$@
+	@render/figures/figure6.sh compare $(@D) >$@
 
 # Figure 5: a wall that the slide projector lights at an angle, by OpenGL as in the paper, and by
 # the reference.
@@ -97,9 +97,9 @@ $(FIGURES)/figure5-%.exr: $(FIGURES)/projector.tif $(FIGURE5) $(RENDER_BIN)
 
 .PHONY: figures
 figures: $(FIGURES)/figure3.exr $(FIGURES)/figure3-half.exr | $(FIGURES)/figure6.txt $(FIGURE5_PICTURES) ## render the figures of the paper
-	@render/figure3.sh difference $^ $(FIGURES)/figure3-difference.png
+	@render/figures/figure3.sh difference $^ $(FIGURES)/figure3-difference.png
 	@echo 'CPU seconds at 80x50 pixels, where the paper tells a factor of 7.4:'
-	@RENDERSLAB=$(RENDER_BIN) render/figure3.sh factors $(FIGURES)/parabolic.tif $(FIGURES)/half.tif
-	@echo "figure 5: the sum over 8x8 views by gl and the reference differ by $$(render/figure6.sh difference $(FIGURE5_PICTURES)) % (relative RMS)"
+	@RENDERSLAB=$(RENDER_BIN) render/figures/figure3.sh factors $(FIGURES)/parabolic.tif $(FIGURES)/half.tif
+	@echo "figure 5: the sum over 8x8 views by gl and the reference differ by $$(render/figures/figure6.sh difference $(FIGURE5_PICTURES)) % (relative RMS)"
 	@cat $(FIGURES)/figure6.txt
 	@echo 'Look at $(^:.exr=.png) $(FIGURES)/figure3-difference.png $(FIGURE5_PICTURES:.exr=.png) $(FIGURES)/figure6-*.png'

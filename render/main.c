@@ -1,7 +1,7 @@
 /* main.c - renderslab: lights things with slabs. A table of subcommands; each
  * lives in its own cmd_NAME.c. */
-#include "commands.h"
-#include "slab_cli.h"
+#include "cli/cli.h"
+#include "cmd/commands.h"
 
 static const struct cli_command commands[] = {
     {"irradiance", cmd_irradiance, "irradiance of receivers read from stdin"},

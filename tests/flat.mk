@@ -97,7 +97,7 @@ $(B)/$(1:.c=.log): $(B)/$(1:.c=) $(BIN) FORCE
 endef
 $(foreach t,$(TEST_SOURCES),$(eval $(call test_program,$(t))))
 
-$(B)/tests/unit/test_slab_floor: $(B)/tests/bench/lamp.o
+$(B)/tests/unit/test_slab_accuracy: $(B)/tests/bench/lamp.o
 
 $(TEST_BATS:%.bats=$(B)/%.log): $(B)/%.log: %.bats $(BIN) FORCE
 	@mkdir -p $(@D)

@@ -26,7 +26,7 @@ mapfile -t files < <(git ls-files --cached --others --exclude-standard | while r
 only() { printf '%s\n' "${files[@]}" | grep -E "$1"; }
 mapfile -t sources < <(only '\.c$')
 mapfile -t headers < <(only '\.h$')
-mapfile -t public < <(only '^bakeslab/slab[^/]*\.h$')
+mapfile -t public < <(only '^bakeslab/(base|cli|slab|file)/.*\.h$')
 mapfile -t bats < <(only '\.(bats|bash)$')
 mapfile -t shells < <(for f in "${files[@]}"; do
   case $f in *.bats | *.bash | *.c | *.h) continue ;; esac
@@ -68,12 +68,12 @@ machine_paths() { # this checkout's folder, its neighbours, somebody's home
 
 unfinished() { ! git grep -nIwE 'TODO|FIXME|XXX|HACK' -- '*.c' '*.h' '*.inc' '*.pov' '*.mk' '*.sh' '*.bats' Makefile ':!tests/lint.sh'; }
 
-# One file with what it may assume; slab_error.c defines what the others assume.
+# One file with what it may assume; result.c defines what the others assume.
 assuming() { # COMMAND... -- FILE: runs COMMAND with FILE put in place of FILE
   local file=$1 words=()
   shift
   for word in "$@"; do words+=("${word/#FILE/$file}"); done
-  [ "$file" = bakeslab/slab_error.c ] || words+=(-include tests/lint_assume.h)
+  [ "$file" = bakeslab/base/result.c ] || words+=(-include tests/lint_assume.h)
   "${words[@]}" 2>&1
 }
 export -f assuming

@@ -70,14 +70,14 @@ $(B)/tests/faults/bakeslab.log $(B)/tests/faults/renderslab.log: $(B)/tests/faul
 $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
 
 # A driver's memory that its globals hold looks lost once the driver is unloaded: for
-# render/view none is.
+# render/viewer none is.
 $(B)/tests/faults/keep.so: tests/faults/keep.c | $(SETUP_FIRST)
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
 	$(Q)$(CC) -O1 -g -D_GNU_SOURCE $(WARN) -fPIC -shared $< -o $@
 
 ifeq ($(config),sanitize)
-$(B)/tests/render/view.log: $(B)/tests/faults/keep.so
+$(B)/tests/render/viewer.log: $(B)/tests/faults/keep.so
 endif
 
 # All of it, at length: every test under the address and undefined behaviour sanitizers, but for

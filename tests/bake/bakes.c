@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "files.h"
+#include "base/files.h"
 
 /* Bakes at a time: a small one mostly waits for POV-Ray's front end. */
 enum { AT_ONCE = 6, MOST = 64 };
@@ -230,10 +230,10 @@ void bakes_wait(void) {
 }
 
 struct slab bakes_load(const char *output, int page) {
-  struct slab_error error = {""};
+  struct error error = {""};
   struct slab_file *file = NULL;
   struct slab slab = {0};
-  enum slab_result result = slab_file_open(bakes_path(output), &file, &error);
+  enum result result = slab_file_open(bakes_path(output), &file, &error);
   if (!result) result = slab_file_load(file, page, &slab, &error);
   slab_file_close(file);
   if (result) fail_msg("%s", error.text);

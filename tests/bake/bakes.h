@@ -3,7 +3,7 @@
 #ifndef BAKES_H
 #define BAKES_H
 
-#include "slab_file.h"
+#include "file/slab_file.h"
 #include "testing.h"
 
 /* ---- The scratch folder of a test program ---- */

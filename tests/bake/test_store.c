@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bake_store.h"
+#include "batch/bake_store.h"
 #include "testing.h"
 
 enum { PROCESSES = 4, TURNS = 500 };
@@ -30,12 +30,12 @@ struct tally {
 static void come_and_go(const char *output, struct tally *tally) {
   for (int turn = 0; turn < TURNS; ++turn) {
     struct bake_store store;
-    struct slab_error error;
+    struct error error;
     char *scratch = NULL;
-    if (bake_store_open(output, false, &store, &error) == SLAB_OK) {
+    if (bake_store_open(output, false, &store, &error) == RESULT_OK) {
       ++tally->opened;
       if (++tally->holders != 1) ++tally->wrong;
-      if (bake_store_scratch(&store, &scratch, NULL) != SLAB_OK) ++tally->wrong;
+      if (bake_store_scratch(&store, &scratch, NULL) != RESULT_OK) ++tally->wrong;
       if (scratch && access(scratch, F_OK) != 0) ++tally->wrong;
       free(scratch);
       --tally->holders;
@@ -66,7 +66,7 @@ static void test_one_holder(void **state) {
   assert_int_equal(tally->wrong, 0);
   assert_true(tally->opened >= TURNS / 10);
   struct bake_store store;
-  assert_int_equal(bake_store_open(output, false, &store, NULL), SLAB_OK);
+  assert_int_equal(bake_store_open(output, false, &store, NULL), RESULT_OK);
   bake_store_close(&store, true);
   assert_int_equal(rmdir(folder), 0); /* nothing is left */
 }

@@ -29,7 +29,7 @@ full=$root/build/figures/parabolic.tif half=32
 [ -f "$full" ] || { full=parabolic.tif half=8; }
 "$BAKESLAB" convert "$full" -o half.tif --uv "${half}x$half" --st 32x32 -q
 heading "The paper's figure 3, a slab of $((2 * half)) x $((2 * half)) positions and half the resolution in each direction; CPU seconds"
-"$root/render/figure3.sh" factors "$full" half.tif
+"$root/render/figures/figure3.sh" factors "$full" half.tif
 "$RENDERSLAB" image "$root/render/scenes/figure3.obj" --light "$full at=0,36,0" "${figure3[@]}" -o layers.exr
 plain layers.exr full.exr
 "$RENDERSLAB" image "$root/render/scenes/figure3.obj" --light "half.tif at=0,36,0" "${figure3[@]}" -o layers.exr

@@ -25,11 +25,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/slab_exr.h"
+#include "file/slab_file.h"
+#include "file/slab_json.h"
 #include "lamp.h"
-#include "slab_exr.h"
-#include "slab_file.h"
-#include "slab_floor.h"
-#include "slab_json.h"
+#include "slab/slab_accuracy.h"
 
 enum { SIDE = 64, POINTS = 600, CELL_POINTS = 8, FLUX_RAYS = 1 << 24 };
 static double below = 60, width = 160; /* `own` asks for others */
@@ -257,7 +257,7 @@ static void report(const struct truth *truth, const struct light *light, double 
 /* As bakeslab would write it: grey. */
 static void write_means(const char *name, const struct light *light) {
   struct slab slab = slab_default();
-  struct slab_error error;
+  struct error error;
   const int samples[SLAB_AXES] = {light->uv, light->uv, light->st, light->st};
   memcpy(slab.samples, samples, sizeof samples);
   slab.u[0] = slab.v[2] = lamp_aperture;
@@ -323,11 +323,11 @@ static void own(double apertures, char **names) {
   fill_floor(truth);
   for (; *names; ++names) {
     struct slab *slabs;
-    struct slab_error error;
-    struct slab_floor floor;
+    struct error error;
+    struct slab_accuracy floor;
     int pages;
     if (slab_file_load_all(*names, &slabs, &pages, &error)) die(error.text);
-    if (slab_floor_estimate(slabs, 1, &below, &floor, &error)) die(error.text);
+    if (slab_accuracy_estimate(slabs, 1, &below, &floor, &error)) die(error.text);
     float *sample = green(slabs);
     struct light light = {slabs->samples[SLAB_U], slabs->samples[SLAB_S], sample};
     printf("%.3g %.3g %.3g %.3g %.3g\n", 100 * floor.all, 100 * floor.st, 100 * floor.uv,
@@ -340,7 +340,7 @@ static void own(double apertures, char **names) {
 static void compare(const char *path, const char *name) {
   static struct truth truth;
   struct slab *slabs;
-  struct slab_error error;
+  struct error error;
   int pages;
   read_truth(path, &truth);
   if (slab_file_load_all(name, &slabs, &pages, &error)) die(error.text);
@@ -356,8 +356,8 @@ static void compare(const char *path, const char *name) {
 
 /* Irradiance by means of blocks of a picture of the floor. */
 static void seen(const char *name, double irradiance[SIDE * SIDE]) {
-  struct slab_picture shown;
-  struct slab_error error;
+  struct picture shown;
+  struct error error;
   if (slab_exr_read(name, &shown, &error)) die(error.text);
   int block = shown.width / SIDE;
   if (shown.width != shown.height || block * SIDE != shown.width) die("a picture of another size");
@@ -368,7 +368,7 @@ static void seen(const char *name, double irradiance[SIDE * SIDE]) {
         sum += (double)shown.rgb[3 * (y * shown.width + x)];
     irradiance[n] = sum * 3.14159265358979323846 / (block * block);
   }
-  slab_picture_free(&shown);
+  picture_free(&shown);
 }
 
 static void image(const char *path, const char *name, const char *other) {
@@ -387,8 +387,8 @@ static void image(const char *path, const char *name, const char *other) {
 }
 
 static void picture(const char *name, double a, double b) {
-  struct slab_picture shown;
-  struct slab_error error;
+  struct picture shown;
+  struct error error;
   if (slab_exr_read(name, &shown, &error)) die(error.text);
   double wrong = 0, all = 0;
   int edges = 0;

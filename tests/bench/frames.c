@@ -7,18 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "camera.h"
-#include "gl_sum.h"
-#include "occlusion.h"
-#include "scene.h"
-#include "slab_progress.h"
+#include "base/progress.h"
+#include "gl/gl_sum.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "shadow/occlusion.h"
 
 enum { FRAMES = 3 };
 
-static struct slab_error error;
+static struct error error;
 
-static void must(enum slab_result result) {
-  if (result == SLAB_OK) return;
+static void must(enum result result) {
+  if (result == RESULT_OK) return;
   fprintf(stderr, "frames: %s\n", error.text);
   exit(1);
 }

@@ -18,10 +18,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gather.h"
+#include "base/vector.h"
+#include "gather/gather.h"
+#include "microlight/seen_page.h"
 #include "roofline.h"
-#include "vector.h"
-#include "view.h"
 
 enum { SIDE = 64, TILE = 8, COUNT = SIDE * SIDE, TOGETHER = TILE * TILE, LINE = 64 };
 static const double window = 1.5, far_away = 4, nearest = 0.5, farthest = 8;
@@ -31,8 +31,8 @@ static void die(const char *text) {
   exit(1);
 }
 
-static void hold(enum slab_result result, const struct slab_error *error) {
-  if (result != SLAB_OK) die(error->text);
+static void hold(enum result result, const struct error *error) {
+  if (result != RESULT_OK) die(error->text);
 }
 
 static double uniform(uint64_t *seed) {
@@ -66,7 +66,7 @@ static void set_axis(struct light_axis *axis, int uv, int st) {
 
 /* Along z, at the origin. */
 static void make_light(int uv, int st, bool filled, struct light *light, struct light_page *page) {
-  struct slab_error error;
+  struct error error;
   *page = (struct light_page){.slab = slab_default(), .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   struct slab *slab = &page->slab;
   const int samples[SLAB_AXES] = {uv, uv, st, st};
@@ -120,23 +120,23 @@ static void make_scattered(struct receiver receivers[COUNT]) {
 /* ---- What a receiver sees ---- */
 
 static uint64_t look(const struct light_page *page, const struct receiver *receiver,
-                     struct view *view, struct strips strips[2]) {
-  struct slab_error error;
-  if (!view_find(page, receiver, view)) die("a receiver behind the lamp");
-  hold(view_strips(view, false, strips, &error), &error);
+                     struct seen_page *view, struct strips strips[2]) {
+  struct error error;
+  if (!seen_page_find(page, receiver, view)) die("a receiver behind the lamp");
+  hold(seen_page_strips(view, false, strips, &error), &error);
   return (uint64_t)strips[0].count * (uint64_t)strips[1].count;
 }
 
 /* Marks the cache lines of a receiver's samples; returns how many were not marked as `mark`. */
-static uint64_t mark_lines(const struct view *view, const struct strips strips[2], uint32_t *marks,
-                           uint32_t mark) {
+static uint64_t mark_lines(const struct seen_page *view, const struct strips strips[2],
+                           uint32_t *marks, uint32_t mark) {
   uint64_t fresh = 0;
   for (int r = 0; r < strips[1].count; ++r) {
     const float *rows[4];
-    view_rows(view, &strips[1].strip[r].taps, rows);
+    seen_page_rows(view, &strips[1].strip[r].taps, rows);
     for (int c = 0; c < strips[0].count; ++c) {
       int offset[2];
-      view_columns(view, &strips[0].strip[c].taps, offset);
+      seen_page_columns(view, &strips[0].strip[c].taps, offset);
       for (int pair = 0; pair < 8; ++pair) {
         size_t from = (size_t)(rows[pair / 2] - view->page->slab.rgb + offset[pair % 2]);
         size_t last = (from + 5) * sizeof(float) / LINE;
@@ -151,7 +151,7 @@ static uint64_t mark_lines(const struct view *view, const struct strips strips[2
 }
 
 static void print_visible(const struct light_page *page, const struct receiver receivers[COUNT]) {
-  struct view view;
+  struct seen_page view;
   struct strips strips[2] = {{0}};
   size_t lines = (slab_sample_count(&page->slab) * 3 + SLAB_PADDING) * sizeof(float) / LINE + 1;
   uint32_t *marks = calloc(lines, sizeof *marks), mark = 0;
@@ -182,7 +182,7 @@ struct way {
 static double sum(const struct light *light, const struct way *way,
                   const struct receiver receivers[COUNT], struct gathered gathered[COUNT],
                   uint64_t *visited) {
-  struct slab_error error;
+  struct error error;
   struct gather *gather;
   const struct gather_settings settings = {.lights = light,
                                            .light_count = 1,
@@ -253,7 +253,7 @@ static void print_visits(int uv, int st, const struct receiver receivers[COUNT])
   static struct gathered gathered[COUNT];
   struct light light;
   struct light_page page;
-  struct view view;
+  struct seen_page view;
   struct strips strips[2] = {{0}};
   uint64_t sum_of = 0, most = 0, visited;
   bool fits = uv * st <= 4096;

@@ -47,7 +47,7 @@ double chain_handedness(const double x[3], const double y[3], const double z[3])
 
 /* ---- Slabs ---- */
 void chain_fill(struct slab *slab, uint64_t *state) {
-  assert_int_equal(slab_alloc(slab, NULL), SLAB_OK);
+  assert_int_equal(slab_alloc(slab, NULL), RESULT_OK);
   size_t values = (size_t)slab->samples[0] * (size_t)slab->samples[1] * (size_t)slab->samples[2] *
                   (size_t)slab->samples[3] * 3;
   for (size_t k = 0; k < values; ++k) slab->rgb[k] = (float)pow(10, 3 * chain_random(state) - 1);
@@ -84,7 +84,7 @@ struct slab chain_means(const struct slab *from, int nu, int nv) {
   to.rgb = NULL;
   to.samples[0] = nu;
   to.samples[1] = nv;
-  assert_int_equal(slab_alloc(&to, NULL), SLAB_OK);
+  assert_int_equal(slab_alloc(&to, NULL), RESULT_OK);
   for (int j = 0; j < nv * from->samples[1]; ++j)
     for (int i = 0; i < nu * from->samples[0]; ++i)
       for (int l = 0; l < to.samples[3]; ++l)
@@ -287,9 +287,9 @@ static const char *log_tail(void) {
 
 void chain_include(const struct slab *pages, int count, const char *name, const char *options) {
   char file[64];
-  struct slab_error error;
+  struct error error;
   snprintf(file, sizeof file, "%s-slab.exr", name);
-  if (slab_file_write(chain_path(file), pages, count, SLAB_PRECISION_FLOAT, &error) != SLAB_OK)
+  if (slab_file_write(chain_path(file), pages, count, SLAB_PRECISION_FLOAT, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   if (chain_run("\"$BAKESLAB\" include %s -o %s.inc %s", file, name, options) != 0)
     fail_msg("%s", log_tail());
@@ -332,16 +332,16 @@ int chain_povray(void) {
                    CHAIN_SIZE);
 }
 
-void chain_render(struct slab_picture *picture) {
-  struct slab_error error;
+void chain_render(struct picture *picture) {
+  struct error error;
   if (chain_povray() != 0) fail_msg("%s", log_tail());
-  if (slab_exr_read(chain_path("frame.exr"), picture, &error) != SLAB_OK)
+  if (slab_exr_read(chain_path("frame.exr"), picture, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   assert_int_equal(picture->width, CHAIN_SIZE);
   assert_int_equal(picture->height, CHAIN_SIZE);
 }
 
-double chain_rmse(const struct slab_picture *picture, const double *direct) {
+double chain_rmse(const struct picture *picture, const double *direct) {
   double error = 0, size = 0;
   for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) {
     error += (picture->rgb[k] - direct[k]) * (picture->rgb[k] - direct[k]);

@@ -8,8 +8,8 @@
 #ifndef CHAIN_H
 #define CHAIN_H
 
-#include "slab_exr.h"
-#include "slab_file.h"
+#include "file/slab_exr.h"
+#include "file/slab_file.h"
 #include "testing.h"
 
 enum { CHAIN_SIZE = 48, CHAIN_PIXELS = CHAIN_SIZE * CHAIN_SIZE };
@@ -97,9 +97,9 @@ void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_
 
 /* Renders scene.pov and returns POV-Ray's exit status; or reads what it made. */
 int chain_povray(void);
-void chain_render(struct slab_picture *picture);
+void chain_render(struct picture *picture);
 
 /* Relative root mean squared difference of the frame from the direct sum. */
-double chain_rmse(const struct slab_picture *picture, const double *direct);
+double chain_rmse(const struct picture *picture, const double *direct);
 
 #endif

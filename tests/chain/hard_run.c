@@ -38,11 +38,11 @@ static bool refused_well(int status) {
 }
 
 static bool make_include(const struct hard_case *lit, struct hard_result *result) {
-  struct slab_error error;
+  struct error error;
   char lights[32] = "";
   chain_run("rm -f lamp.* said");
   if (slab_file_write(chain_path("lamp-slab.exr"), lit->pages, lit->page_count,
-                      SLAB_PRECISION_FLOAT, &error) != SLAB_OK) {
+                      SLAB_PRECISION_FLOAT, &error) != RESULT_OK) {
     judge(result, HARD_MISSED, "no slab: %s", error.text);
     return false;
   }
@@ -109,7 +109,7 @@ static bool render(const struct hard_case *lit, double pigment, struct hard_resu
 }
 
 /* Of the pixels that are compared; RMS over them. */
-static double difference(const struct hard_case *lit, const struct slab_picture *picture,
+static double difference(const struct hard_case *lit, const struct picture *picture,
                          const struct hard_sum *sum, double pigment, int *compared) {
   double error = 0, size = 0;
   *compared = 0;
@@ -137,11 +137,11 @@ static bool too_near(const struct hard_case *lit) {
 
 static void compare(const struct hard_case *lit, const struct hard_sum *sum, double pigment,
                     struct hard_result *result) {
-  struct slab_picture picture;
-  struct slab_error error;
+  struct picture picture;
+  struct error error;
   int compared;
   result->allowed = lit->stated ? slack * hard_stated(lit) + more : exact;
-  if (slab_exr_read(chain_path("frame.exr"), &picture, &error) != SLAB_OK) {
+  if (slab_exr_read(chain_path("frame.exr"), &picture, &error) != RESULT_OK) {
     judge(result, HARD_MISSED, "%s", error.text);
     return;
   }
@@ -151,7 +151,7 @@ static void compare(const struct hard_case *lit, const struct hard_sum *sum, dou
   judge(result, right ? HARD_RIGHT : HARD_MISSED, "error %.3g, %.3g allowed, %d pixels",
         result->error, result->allowed, compared);
   if (isinf(result->allowed)) result->error = 0; /* of which nothing is claimed */
-  slab_picture_free(&picture);
+  picture_free(&picture);
 }
 
 void hard_run(const struct hard_case *lit, struct hard_result *result) {

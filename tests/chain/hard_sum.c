@@ -315,7 +315,7 @@ static bool add_cluster(const struct hard_case *lit, int n, struct hard_sum *sum
 
 /* ---- The far field, as its image has it ---- */
 
-static void image_at(const struct slab_picture *picture, const double direction[3], double rgb[3]) {
+static void image_at(const struct picture *picture, const double direction[3], double rgb[3]) {
   double turns = atan2(direction[2], direction[0]) / (2 * M_PI);
   double x = (turns - floor(turns)) * picture->width - 0.5;
   double y = (0.5 - asin(fmin(fmax(direction[1], -1), 1)) / M_PI) * picture->height - 0.5;
@@ -350,7 +350,7 @@ double hard_radius(const struct hard_lamp *lamp, double width) {
   return fmax(0.05 * width, 0.002 / lamp->scale);
 }
 
-static void add_point(const struct hard_case *lit, int n, const struct slab_picture *picture,
+static void add_point(const struct hard_case *lit, int n, const struct picture *picture,
                       const double numbers[16], struct hard_sum *sum) {
   const struct hard_lamp *lamp = &lit->lamps[n];
   double axes[3][3], center[3], width = numbers[12];
@@ -377,16 +377,16 @@ static void add_point(const struct hard_case *lit, int n, const struct slab_pict
 }
 
 static bool add_points(const struct hard_case *lit, struct hard_sum *sum) {
-  struct slab_picture picture;
-  struct slab_error error;
+  struct picture picture;
+  struct error error;
   double numbers[16]; /* frame, centre, width, intensity */
   if (!hard_numbers("Test_Lamp_Frame = array[4] {", numbers, 12) ||
       !hard_numbers("Test_Lamp_Width =", numbers + 12, 1) ||
       !hard_numbers("Test_Lamp_Intensity =", numbers + 13, 3))
     return false;
-  if (slab_exr_read(chain_path("lamp.exr"), &picture, &error) != SLAB_OK) return false;
+  if (slab_exr_read(chain_path("lamp.exr"), &picture, &error) != RESULT_OK) return false;
   for (int n = 0; n < lit->lamp_count; ++n) add_point(lit, n, &picture, numbers, sum);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   return true;
 }
 

@@ -27,7 +27,7 @@ double letter_ink(double x, double y) {
 }
 
 /* Correlation of the picture with the letter; flips mirror the letter. */
-static double correlation(const struct slab_picture *picture, int flip_x, int flip_y) {
+static double correlation(const struct picture *picture, int flip_x, int flip_y) {
   double sums[5] = {0}, n = CHAIN_PIXELS;
   for (int row = 0; row < CHAIN_SIZE; ++row)
     for (int column = 0; column < CHAIN_SIZE; ++column) {
@@ -44,7 +44,7 @@ static double correlation(const struct slab_picture *picture, int flip_x, int fl
   return variances > 0 ? covariance / sqrt(variances) : 0;
 }
 
-void letter_render(const char *lights, struct slab_picture *picture) {
+void letter_render(const char *lights, struct picture *picture) {
   FILE *file = fopen(chain_path("scene.pov"), "w");
   assert_non_null(file);
   fprintf(file,
@@ -56,7 +56,7 @@ void letter_render(const char *lights, struct slab_picture *picture) {
   chain_render(picture);
 }
 
-void letter_expect(const struct slab_picture *picture) {
+void letter_expect(const struct picture *picture) {
   double right = correlation(picture, 0, 0), left = correlation(picture, 1, 0),
          down = correlation(picture, 0, 1), turned = correlation(picture, 1, 1);
   print_message("# correlation with F %.3f, mirrored %.3f, upside down %.3f, turned %.3f\n", right,

@@ -3,7 +3,7 @@
 #ifndef LETTER_H
 #define LETTER_H
 
-#include "slab_exr.h"
+#include "file/slab_exr.h"
 
 enum { LETTER_STROKES = 7 };
 
@@ -14,11 +14,11 @@ int letter_cell(int column, int row);
 double letter_ink(double x, double y);
 
 /* Renders the wall z = 1 under these lights, as POV-Ray's plainest camera sees it (x to
- * the right, y up, the square -1..1). Free the picture with slab_picture_free. */
-void letter_render(const char *lights, struct slab_picture *picture);
+ * the right, y up, the square -1..1). Free the picture with picture_free. */
+void letter_render(const char *lights, struct picture *picture);
 
 /* Such a picture of a lamp around the origin shows the letter the right way round, and no mirror
  * image of it. */
-void letter_expect(const struct slab_picture *picture);
+void letter_expect(const struct picture *picture);
 
 #endif

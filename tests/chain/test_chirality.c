@@ -19,7 +19,7 @@ static struct slab letter_lamp(const double u[3], const double v[3], double st_d
   slab.normal[2] = 1;
   slab.st_distance = st_distance;
   snprintf(slab.name, sizeof slab.name, "letter");
-  assert_int_equal(slab_alloc(&slab, NULL), SLAB_OK);
+  assert_int_equal(slab_alloc(&slab, NULL), RESULT_OK);
   double edge = chain_length(u);
   for (int t = 0; t < samples[3]; ++t)
     for (int s = 0; s < samples[2]; ++s) {
@@ -34,11 +34,11 @@ static struct slab letter_lamp(const double u[3], const double v[3], double st_d
 
 static void shine(const double u[3], const double v[3], double st_distance) {
   struct slab slab = letter_lamp(u, v, st_distance);
-  struct slab_picture picture;
+  struct picture picture;
   chain_include(&slab, 1, "lamp", "");
   letter_render("#include \"lamp.inc\"\nobject { Letter_Canned(1, 1) }", &picture);
   letter_expect(&picture);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   slab_free(&slab);
 }
 

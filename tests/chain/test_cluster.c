@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "chain.h"
-#include "cluster.h"
-#include "point.h"
+#include "include/cluster/cluster.h"
+#include "include/point/point.h"
 
 /* The picture's own half floats cost 2e-4. */
 static const double exact = 5e-4;
@@ -117,21 +117,21 @@ static void sum_lights(const struct chain_lamp *lamps, int count, const struct c
 
 static double render_against(const struct chain_plane *plane, const char *sdl,
                              const double *direct) {
-  struct slab_picture picture;
+  struct picture picture;
   chain_scene(plane, sdl);
   chain_render(&picture);
   double rmse = chain_rmse(&picture, direct);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   return rmse;
 }
 
 static struct cluster fit(const struct slab *pages, int count, int lights) {
   struct cluster cluster;
-  struct slab_error error;
+  struct error error;
   char options[64];
   snprintf(options, sizeof options, "--mode cluster --lights %d", lights);
   chain_include(pages, count, "lamp", options);
-  if (cluster_make(pages, count, lights, 0, 4, &cluster, &error) != SLAB_OK)
+  if (cluster_make(pages, count, lights, 0, 4, &cluster, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   return cluster;
 }
@@ -318,7 +318,7 @@ static void test_point(void **state) {
     struct slab slab = smooth_slab(st_distances[d], d, 25);
     struct point point;
     chain_include(&slab, 1, "lamp", "--mode point");
-    assert_int_equal(point_make(&slab, 1, 20, &point, NULL), SLAB_OK);
+    assert_int_equal(point_make(&slab, 1, 20, &point, NULL), RESULT_OK);
     compare_slab(d ? "point, st plane" : "point, infinite", &slab, 20, point.error_at);
     assert_true(point.error_at < 0.02);
     struct chain_lamp lamp = lamp_of(&slab, 1);

@@ -59,10 +59,10 @@ static struct chain_plane face_of(int number) {
 /* ---- Fluxes: red, green, blue ---- */
 
 static void flux_of_slab(const char *name, double flux[3]) {
-  struct slab_error error;
+  struct error error;
   struct slab *slabs;
   int count;
-  if (slab_file_load_all(chain_path(name), &slabs, &count, &error) != SLAB_OK)
+  if (slab_file_load_all(chain_path(name), &slabs, &count, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   assert_int_equal(count, 1);
   slab_flux(slabs, flux);
@@ -109,11 +109,11 @@ static void flux_by_povray(const char *sdl, double flux[3]) {
   for (int number = 0; number < FACES; ++number) {
     struct chain_plane face = face_of(number);
     double area = chain_length(face.across) * chain_length(face.down) / CHAIN_PIXELS;
-    struct slab_picture picture;
+    struct picture picture;
     chain_scene(&face, sdl);
     chain_render(&picture);
     for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) flux[k % 3] += M_PI * area * (double)picture.rgb[k];
-    slab_picture_free(&picture);
+    picture_free(&picture);
   }
 }
 

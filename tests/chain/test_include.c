@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "chain.h"
-#include "slab_json.h"
+#include "file/slab_json.h"
 
 static const int samples[4] = {4, 4, 16, 16};
 static const double square[2] = {1, 1}, window[4] = {-1.5, 1.5, -1.5, 1.5};
@@ -25,12 +25,12 @@ static double picture_error(const struct slab *slab, double scale, const char *s
   static double direct[3 * CHAIN_PIXELS];
   struct chain_lamp lamp = lamp_of(slab, scale);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
-  struct slab_picture picture;
+  struct picture picture;
   chain_scene(&plane, sdl);
   chain_render(&picture);
   chain_direct(&lamp, 1, &plane, direct);
   double error = chain_rmse(&picture, direct);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   return error;
 }
 
@@ -51,8 +51,8 @@ static void expect_refusal(const char *arguments, int status, const char *text) 
 }
 
 static void write_slab(const struct slab *slab) {
-  struct slab_error error;
-  if (slab_file_write(chain_path("slab.exr"), slab, 1, SLAB_PRECISION_FLOAT, &error) != SLAB_OK)
+  struct error error;
+  if (slab_file_write(chain_path("slab.exr"), slab, 1, SLAB_PRECISION_FLOAT, &error) != RESULT_OK)
     fail_msg("%s", error.text);
 }
 
@@ -139,7 +139,7 @@ static void test_gamma(void **state) {
   struct slab slab = rough_slab();
   struct chain_lamp lamp = lamp_of(&slab, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
-  struct slab_picture picture;
+  struct picture picture;
   chain_include(&slab, 1, "lamp", "");
   chain_scene(&plane, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(1, 1) }");
   assert_int_equal(chain_run("sed -i 's/assumed_gamma 1.0/assumed_gamma 2.2/' scene.pov"), 0);
@@ -147,7 +147,7 @@ static void test_gamma(void **state) {
   for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) picture.rgb[k] = (float)pow(picture.rgb[k], 1 / 2.2);
   chain_direct(&lamp, 1, &plane, direct);
   assert_true(chain_rmse(&picture, direct) < 1e-3);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   slab_free(&slab);
 }
 
@@ -221,17 +221,17 @@ static void test_injection(void **state) {
   struct slab slab = rough_slab();
   struct chain_lamp lamp = lamp_of(&slab, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
-  struct slab_picture picture;
+  struct picture picture;
   char provenance[256];
   for (size_t k = 0; k < sizeof housings / sizeof *housings; ++k) {
     snprintf(provenance, sizeof provenance, "{\"housing\": \"%s\"}", housings[k]);
-    assert_int_equal(slab_json_set(&slab, "provenance", provenance, NULL), SLAB_OK);
+    assert_int_equal(slab_json_set(&slab, "provenance", provenance, NULL), RESULT_OK);
     chain_include(&slab, 1, "lamp", "");
     assert_non_null(strstr(chain_log(), "lamp-slab.exr: note: its housing is left out"));
     assert_int_equal(chain_run("grep -q 'without a housing that could be used' lamp.inc"), 0);
     chain_scene(&plane, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(1, 1) }");
     chain_render(&picture);
-    slab_picture_free(&picture);
+    picture_free(&picture);
     assert_int_equal(chain_run("test ! -e made"), 0);
   }
   /* The name must be an identifier; the command's line ends are not printed. */
@@ -253,11 +253,12 @@ static void test_saturated(void **state) {
   static double direct[3 * CHAIN_PIXELS];
   for (int n = 0; n < 3; ++n) {
     struct slab slab = rough_slab();
-    struct slab_error error;
-    struct slab_picture picture;
+    struct error error;
+    struct picture picture;
     for (size_t k = 0; k < (size_t)3 * 64 * 64; ++k) slab.rgb[k] = slab.rgb[k / 3 * 3];
     for (size_t k = 0; k < (size_t)3 * 64 * 64; ++k) slab.rgb[k] *= colours[n][k % 3];
-    if (slab_file_write(chain_path("lamp.tif"), &slab, 1, SLAB_PRECISION_LOGLUV, &error) != SLAB_OK)
+    if (slab_file_write(chain_path("lamp.tif"), &slab, 1, SLAB_PRECISION_LOGLUV, &error) !=
+        RESULT_OK)
       fail_msg("%s", error.text);
     if (chain_run("\"$BAKESLAB\" include lamp.tif -o lamp.inc") != 0) fail_msg("%s", chain_log());
     struct chain_lamp lamp = lamp_of(&slab, 1);
@@ -266,7 +267,7 @@ static void test_saturated(void **state) {
     chain_render(&picture);
     chain_direct(&lamp, 1, &plane, direct);
     assert_true(chain_rmse(&picture, direct) < 0.02);
-    slab_picture_free(&picture);
+    picture_free(&picture);
     slab_free(&slab);
   }
 }
@@ -284,7 +285,7 @@ static void test_name(void **state) {
 
 /* Pictures of the scene with the lamp, shining nothing, and without it. */
 static void expect_unseen(const char *scene, const char *what) {
-  struct slab_picture pictures[2];
+  struct picture pictures[2];
   for (int with = 0; with < 2; ++with) {
     FILE *file = fopen(chain_path("scene.pov"), "w");
     assert_non_null(file);
@@ -297,8 +298,8 @@ static void expect_unseen(const char *scene, const char *what) {
     if (fabsf(pictures[0].rgb[k] - pictures[1].rgb[k]) > 1e-3F)
       fail_msg("the lamp is seen %s, value %d: %g, not %g", what, k, (double)pictures[1].rgb[k],
                (double)pictures[0].rgb[k]);
-  slab_picture_free(&pictures[0]);
-  slab_picture_free(&pictures[1]);
+  picture_free(&pictures[0]);
+  picture_free(&pictures[1]);
 }
 
 static void test_unseen(void **state) {
@@ -324,7 +325,7 @@ static void test_unseen(void **state) {
 static void test_housing(void **state) {
   (void)state;
   struct slab slab = rough_slab();
-  struct slab_picture picture;
+  struct picture picture;
   chain_include(&slab, 1, "lamp", "");
   expect_stop(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Case() }",
               "Test_Lamp_Canned_Case");
@@ -332,7 +333,7 @@ static void test_housing(void **state) {
                                  "{\"housing\": \"sphere { 0, 1 pigment { rgb <0, 1, 0> } "
                                  "finish { ambient 0 emission 1 diffuse 0 } }\"}",
                                  NULL),
-                   SLAB_OK);
+                   RESULT_OK);
   chain_include(&slab, 1, "lamp", "");
   struct chain_lamp lamp = lamp_of(&slab, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
@@ -340,7 +341,7 @@ static void test_housing(void **state) {
   chain_render(&picture);
   const float *middle = picture.rgb + 3 * (CHAIN_SIZE / 2 * CHAIN_SIZE + CHAIN_SIZE / 2);
   assert_true(middle[0] < 0.01F && middle[1] > 0.99F && middle[2] < 0.01F);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   slab_free(&slab);
 }
 

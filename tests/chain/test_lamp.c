@@ -30,7 +30,7 @@ static void bake(const char *options) {
 /* Cells of the letter that glow 100 units behind an opening of 2 x 2, turned as a slide in
  * a projector is: the opening turns them back. The wall is 50 units in front of it. */
 static void project(const char *u, const char *v, double st_distance) {
-  struct slab_picture picture;
+  struct picture picture;
   remove(chain_path("lamp.pov"));
   write_file("lamp.pov",
              "#version 3.7;\n#include \"canned.inc\"\nCanned_Lamp(\"letter\")\nCanned_Needs(\"\")\n"
@@ -48,7 +48,7 @@ static void project(const char *u, const char *v, double st_distance) {
   bake("--uv 2x2 --st 28x28 --rays 4 --uniform --jobs 1");
   letter_render("#include \"lamp.inc\"\nobject { Letter_Canned(1/50, 1) }", &picture);
   letter_expect(&picture);
-  slab_picture_free(&picture);
+  picture_free(&picture);
 }
 
 static void test_letter(void **state) {
@@ -76,7 +76,7 @@ static const char barred_lamp[] =
     "  pigment { rgb 0 } finish { diffuse 0 }\n}\n";
 
 /* The floor 30 units below it, as far as any of its light gets; the camera is in between. */
-static void render_floor(const char *lights, struct slab_picture *picture) {
+static void render_floor(const char *lights, struct picture *picture) {
   remove(chain_path("scene.pov"));
   write_file("scene.pov",
              "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n%s\n"
@@ -86,14 +86,14 @@ static void render_floor(const char *lights, struct slab_picture *picture) {
   chain_render(picture);
 }
 
-static double value(const struct slab_picture *picture, int x, int y) {
+static double value(const struct picture *picture, int x, int y) {
   if (x < 0 || x >= CHAIN_SIZE || y < 0 || y >= CHAIN_SIZE) return 0;
   return (double)picture->rgb[3 * (y * CHAIN_SIZE + x)];
 }
 
 /* RMS difference over RMS, where `wrong` may be mirrored and shifted. */
-static double difference(const struct slab_picture *right, const struct slab_picture *wrong,
-                         int flip_x, int flip_y, int shift) {
+static double difference(const struct picture *right, const struct picture *wrong, int flip_x,
+                         int flip_y, int shift) {
   double error = 0, size = 0;
   for (int y = 0; y < CHAIN_SIZE; ++y)
     for (int x = 0; x < CHAIN_SIZE; ++x) {
@@ -105,7 +105,7 @@ static double difference(const struct slab_picture *right, const struct slab_pic
   return sqrt(error / size);
 }
 
-static double mean(const struct slab_picture *picture) {
+static double mean(const struct picture *picture) {
   double sum = 0;
   for (int k = 0; k < CHAIN_PIXELS; ++k) sum += (double)picture->rgb[3 * k];
   return sum / CHAIN_PIXELS;
@@ -113,7 +113,7 @@ static double mean(const struct slab_picture *picture) {
 
 static void test_canned(void **state) {
   (void)state;
-  struct slab_picture lamp, canned;
+  struct picture lamp, canned;
   remove(chain_path("lamp.pov"));
   write_file("lamp.pov", "%s", barred_lamp);
   bake("--uv 10x8 --st 40x32 --rays 64");
@@ -137,8 +137,8 @@ static void test_canned(void **state) {
     double off = difference(&lamp, &canned, wrong[k][0], wrong[k][1], wrong[k][2]);
     assert_true(off > 0.2);
   }
-  slab_picture_free(&lamp);
-  slab_picture_free(&canned);
+  picture_free(&lamp);
+  picture_free(&canned);
 }
 
 int main(void) {

@@ -57,12 +57,12 @@ static const struct setting settings[] = {
 static void compare(const char *what, const struct chain_lamp *lamps, int count,
                     const struct chain_plane *plane, const char *sdl) {
   static double direct[3 * CHAIN_PIXELS];
-  struct slab_picture picture;
+  struct picture picture;
   chain_scene(plane, sdl);
   chain_render(&picture);
   chain_direct(lamps, count, plane, direct);
   double rmse = chain_rmse(&picture, direct);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   print_message("%-32s %.2g\n", what, rmse);
   if (!(rmse <= tolerance)) fail_msg("%s: relative RMSE %g", what, rmse);
 }

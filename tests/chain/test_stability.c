@@ -27,7 +27,7 @@ static struct chain_lamp lamp_of(const struct slab *slab, double scale) {
 /* The plane two apertures from the first lamp, under the lights of `sdl`, with a pigment
  * that undoes a gain. */
 static void render(const struct chain_lamp *lamps, double pigment, const char *sdl,
-                   struct slab_picture *picture) {
+                   struct picture *picture) {
   struct chain_plane plane = chain_facing(&lamps[0], 0, 2);
   chain_scene(&plane, sdl);
   assert_int_equal(chain_run("sed -i 's/pigment { rgb 1 }/pigment { rgb %g }/' scene.pov", pigment),
@@ -39,13 +39,13 @@ static void expect_within(double most, const char *what, const struct chain_lamp
                           double pigment, const char *sdl) {
   static double direct[3 * CHAIN_PIXELS];
   struct chain_plane plane = chain_facing(&lamps[0], 0, 2);
-  struct slab_picture picture;
+  struct picture picture;
   render(lamps, pigment, sdl, &picture);
   chain_direct(lamps, count, &plane, direct);
   double rmse = chain_rmse(&picture, direct);
   print_message("# %-40s %.2g\n", what, rmse);
   if (!(rmse <= most)) fail_msg("%s: relative RMSE %g", what, rmse);
-  slab_picture_free(&picture);
+  picture_free(&picture);
 }
 
 static void expect_sum(const char *what, const struct chain_lamp *lamp, double pigment,
@@ -107,7 +107,7 @@ static void test_other_kinds(void **state) {
   static const double scales[] = {0.0042, 1e6, 1e9};
   struct slab slab = make_slab(INFINITY, 4);
   for (int kind = 0; kind < 2; ++kind) {
-    struct slab_picture plain, picture;
+    struct picture plain, picture;
     struct chain_lamp lamp = lamp_of(&slab, 1);
     char sdl[1024];
     double right[3 * CHAIN_PIXELS];
@@ -122,9 +122,9 @@ static void test_other_kinds(void **state) {
       double rmse = chain_rmse(&picture, right);
       print_message("# %-32s %7g %.2g\n", kinds[kind], scales[n], rmse);
       assert_true(rmse <= tolerance);
-      slab_picture_free(&picture);
+      picture_free(&picture);
     }
-    slab_picture_free(&plain);
+    picture_free(&plain);
   }
   slab_free(&slab);
 }
@@ -193,8 +193,8 @@ static void test_switches(void **state) {
   struct slab slab = make_slab(INFINITY, 7);
   struct chain_lamp lamp = lamp_of(&slab, 1);
   for (int kind = 0; kind < 3; ++kind) {
-    struct slab_picture plain, picture;
-    struct slab_error error;
+    struct picture plain, picture;
+    struct error error;
     char sdl[1024];
     chain_include(&slab, 1, "lamp", kinds[kind]);
     chain_place_all(&lamp, 1, sdl, sizeof sdl);
@@ -204,7 +204,7 @@ static void test_switches(void **state) {
       assert_int_equal(chain_run("povray +Iscene.pov +Oframe.exr +FE -A -D +W%d +H%d %s",
                                  CHAIN_SIZE, CHAIN_SIZE, switches[k]),
                        0);
-      assert_int_equal(slab_exr_read(chain_path("frame.exr"), &picture, &error), SLAB_OK);
+      assert_int_equal(slab_exr_read(chain_path("frame.exr"), &picture, &error), RESULT_OK);
       if (!strstr(switches[k], "+A"))
         assert_memory_equal(picture.rgb, plain.rgb, sizeof(float) * 3 * CHAIN_PIXELS);
       for (int n = 0; n < 3 * CHAIN_PIXELS; ++n) {
@@ -212,9 +212,9 @@ static void test_switches(void **state) {
         right += (double)plain.rgb[n];
       }
       if (!(fabs(sum / right - 1) < 3e-3)) fail_msg("%s: %g, not %g", switches[k], sum, right);
-      slab_picture_free(&picture);
+      picture_free(&picture);
     }
-    slab_picture_free(&plain);
+    picture_free(&plain);
   }
   slab_free(&slab);
 }

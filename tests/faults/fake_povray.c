@@ -8,7 +8,7 @@
 #include <time.h>
 #include <xxhash.h>
 
-#include "slab_exr.h"
+#include "file/slab_exr.h"
 
 static const char declared[] = "lamp fake\nneeds \nslab\ncenter 0 0 0 0 0 0\nu 0.5 2 0 0 0 0\n"
                                "v 0 0 0.5 2 0 0\nnormal 0 0 0 0 0.5 1\ns -0.5 1 0.5 1\n"
@@ -33,7 +33,7 @@ static int number_after(const char *text, const char *key, int otherwise) {
 }
 
 /* A marker row, as canned_bake.inc paints it, then radiance up to 1. */
-static void paint(struct slab_picture *picture, uint64_t seed) {
+static void paint(struct picture *picture, uint64_t seed) {
   size_t count = 3 * (size_t)picture->width * (size_t)picture->height;
   for (size_t k = 0; k < count; ++k)
     picture->rgb[k] =
@@ -47,8 +47,8 @@ int main(int argc, char **argv) {
   }
   char *ini = read_text("render.ini"), *scene = read_text("scene.pov");
   free(read_text("canned-lamp.pov"));
-  struct slab_picture picture = {.width = number_after(ini, "\nWidth=", 1),
-                                 .height = number_after(ini, "\nHeight=", 1)};
+  struct picture picture = {.width = number_after(ini, "\nWidth=", 1),
+                            .height = number_after(ini, "\nHeight=", 1)};
   int frames = number_after(ini, "Final_Frame=", 1), failed = 0;
   const char *seconds = getenv("FAKE_SECONDS");
   double wait = seconds ? atof(seconds) : 0;
@@ -57,7 +57,7 @@ int main(int argc, char **argv) {
   for (int frame = 1; frame <= frames && picture.rgb; ++frame) {
     char name[64];
     int digits = snprintf(NULL, 0, "%d", frames);
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     paint(&picture, XXH64(scene, strlen(scene), (uint64_t)frame));
     snprintf(name, sizeof name, "frame%0*d.exr", digits, frame);
     if (slab_exr_write(frames > 1 ? name : "frame.exr", &picture, 0, NULL, &error)) failed = 1;
@@ -68,7 +68,7 @@ int main(int argc, char **argv) {
     failed |= !out || fputs(declared, out) < 0;
     if (out) failed |= fclose(out) != 0;
   }
-  slab_picture_free(&picture);
+  picture_free(&picture);
   free(ini);
   free(scene);
   return failed;

@@ -18,8 +18,8 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "base/files.h"
 #include "faults_commands.h"
-#include "files.h"
 #include "supervise.h"
 
 enum kind {
@@ -205,7 +205,7 @@ static void clear(const struct faults_command *command, bool old) {
   must(mkdir("run", 0777) == 0 && chdir("run") == 0, "run");
   snprintf(names, sizeof names, "%s", command->outputs);
   for (char *name = strtok(names, " "); old && name; name = strtok(NULL, " "))
-    must(files_write(".", name, old_content, NULL) == SLAB_OK, name);
+    must(files_write(".", name, old_content, NULL) == RESULT_OK, name);
 }
 
 /* jansson 2.14 aborts by itself where the buffer of a word cannot grow: an assertion in load.c,

@@ -19,7 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "slab_file.h"
+#include "file/slab_file.h"
 
 enum { LARGEST = 1 << 16, MOST_SAMPLES = 1 << 20, SECONDS = 20 };
 static const rlim_t memory = (rlim_t)1 << 30;
@@ -96,21 +96,21 @@ static void require(bool holds, const char *what) {
 /* What slab.h and slab_file.h promise of a page that was taken. */
 static void use_page(struct slab_file *file, int page) {
   const struct slab *geometry = slab_file_page(file, page);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct slab slab;
-  require(slab_check(geometry, &error) == SLAB_OK, "the geometry is checked");
+  require(slab_check(geometry, &error) == RESULT_OK, "the geometry is checked");
   require(12.0 * (double)slab_sample_count(geometry) < (double)memory, "no 1 GB from some bytes");
   size_t view = (size_t)geometry->samples[SLAB_S] * (size_t)geometry->samples[SLAB_T];
   if (slab_sample_count(geometry) > MOST_SAMPLES) return;
   float *rgb = calloc(view, 3 * sizeof *rgb);
-  if (slab_file_load(file, page, &slab, &error) == SLAB_OK) {
+  if (slab_file_load(file, page, &slab, &error) == RESULT_OK) {
     double least = 0, most = 0, found[3];
     for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) {
       require(isfinite(slab.rgb[k]), "samples are finite");
       least = fmin(least, (double)slab.rgb[k]);
       most = fmax(most, (double)slab.rgb[k]);
     }
-    require(slab_file_read_view(file, page, 0, 0, rgb, &error) == SLAB_OK, "views are as pages");
+    require(slab_file_read_view(file, page, 0, 0, rgb, &error) == RESULT_OK, "views are as pages");
     for (int c = 0; c < 3; ++c)
       require(rgb[c] == slab_at(&slab, 0, 0, 0, 0)[c], "views hold the samples");
     slab_lookup(&slab, 0, 0, slab.st_window[0] / 2 + slab.st_window[1] / 2,
@@ -128,11 +128,11 @@ static void use_page(struct slab_file *file, int page) {
 static void use(const unsigned char *bytes, size_t size, struct tally *tally) {
   char path[64];
   struct slab_file *file;
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   int fd = memfd_create("mutant", MFD_CLOEXEC);
   require(fd >= 0 && write(fd, bytes, size) == (ssize_t)size, "memory for the file");
   snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-  if (slab_file_open(path, &file, &error) == SLAB_OK) {
+  if (slab_file_open(path, &file, &error) == RESULT_OK) {
     ++tally->accepted;
     for (int page = 0; page < slab_file_pages(file); ++page) use_page(file, page);
     slab_file_close(file);

@@ -3,16 +3,16 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "file/slab_exr.h"
+#include "file/slab_raster.h"
 #include "fuzz.h"
-#include "slab_exr.h"
-#include "slab_raster.h"
 
 enum { MOST_PIXELS = 1 << 20 }; /* of the blocks that are decoded */
 
 static void read_parts(int fd) {
   struct slab_exr *exr = NULL;
-  struct slab_error error;
-  if (slab_exr_open(fd, "fuzz", "lightslab", &exr, &error) != SLAB_OK) return;
+  struct error error;
+  if (slab_exr_open(fd, "fuzz", "lightslab", &exr, &error) != RESULT_OK) return;
   for (int part = 0; part < slab_exr_parts(exr); ++part) {
     const struct slab_raster *raster = slab_exr_part(exr, part);
     size_t pixels = slab_raster_block_pixels(raster), left = MOST_PIXELS;
@@ -21,7 +21,7 @@ static void read_parts(int fd) {
     for (int row = 0; rgb && row < slab_raster_rows(raster) && left >= pixels; ++row)
       for (int column = 0; column < slab_raster_columns(raster) && left >= pixels; ++column) {
         left -= pixels;
-        if (slab_exr_read_block(exr, part, column, row, rgb, &error) != SLAB_OK) left = 0;
+        if (slab_exr_read_block(exr, part, column, row, rgb, &error) != RESULT_OK) left = 0;
       }
     free(rgb);
   }
@@ -31,12 +31,12 @@ static void read_parts(int fd) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   int fd = fuzz_file(data, size);
   char path[64];
-  struct slab_picture picture;
-  struct slab_error error;
+  struct picture picture;
+  struct error error;
   snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-  if (slab_exr_read(path, &picture, &error) == SLAB_OK)
+  if (slab_exr_read(path, &picture, &error) == RESULT_OK)
     fuzz_check(picture.width > 0 && picture.height > 0 && picture.rgb);
-  slab_picture_free(&picture);
+  picture_free(&picture);
   read_parts(fd);
   return 0;
 }

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "housing.h"
+#include "lamp/housing.h"
 
 /* Where neither strings nor comments can hide a directive, anyone sees those that are not
  * harmless. */

@@ -3,15 +3,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/slab_json.h"
 #include "fuzz.h"
-#include "slab_json.h"
 
 static void write_again(struct slab *slab) {
-  struct slab_error error;
+  struct error error;
   struct slab copy;
   char *text = NULL;
-  fuzz_check(slab_json_text(slab, NULL, &text, &error) == SLAB_OK);
-  fuzz_check(slab_json_parse(text, &copy, NULL, &error) == SLAB_OK);
+  fuzz_check(slab_json_text(slab, NULL, &text, &error) == RESULT_OK);
+  fuzz_check(slab_json_parse(text, &copy, NULL, &error) == RESULT_OK);
   fuzz_check(!memcmp(slab->samples, copy.samples, sizeof copy.samples));
   for (int k = 0; k < 4; ++k) fuzz_check(slab->st_window[k] == copy.st_window[k]);
   fuzz_check(!strcmp(slab->name, copy.name) && slab->st_distance == copy.st_distance);
@@ -21,16 +21,16 @@ static void write_again(struct slab *slab) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   struct slab slab;
-  struct slab_error error;
+  struct error error;
   double white[3];
   char *text = fuzz_text(data, size);
-  if (slab_json_parse(text, &slab, white, &error) == SLAB_OK) {
-    fuzz_check(slab_check(&slab, &error) == SLAB_OK);
+  if (slab_json_parse(text, &slab, white, &error) == RESULT_OK) {
+    fuzz_check(slab_check(&slab, &error) == RESULT_OK);
     for (int c = 0; c < 3; ++c) fuzz_check(white[c] > 0);
     free(slab_json_get(&slab, "provenance"));
     free(slab_json_get_string(&slab, "provenance", "housing"));
     slab_json_get_number(&slab, "provenance", "noise", "flux");
-    fuzz_check(slab_json_record(&slab, "command", "tool", true, &error) == SLAB_OK);
+    fuzz_check(slab_json_record(&slab, "command", "tool", true, &error) == RESULT_OK);
     char *command = slab_json_get_string(&slab, "provenance", "command");
     fuzz_check(command && !strcmp(command, "command"));
     free(command);

@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cmd/receiver_text.h"
 #include "fuzz.h"
-#include "receivers.h"
 
 enum { AT_A_TIME = 16 };
 
@@ -24,12 +24,12 @@ static void check_some(const struct receivers *receivers) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   struct receivers receivers = {0};
-  struct slab_error error;
+  struct error error;
   FILE *in = fdopen(fuzz_file(data, size), "r");
   fuzz_check(in);
-  while (receivers_read(in, AT_A_TIME, &receivers, &error) == SLAB_OK && receivers.count > 0)
+  while (receiver_text_read(in, AT_A_TIME, &receivers, &error) == RESULT_OK && receivers.count > 0)
     check_some(&receivers);
-  receivers_free(&receivers);
+  receiver_text_free(&receivers);
   fclose(in);
   return 0;
 }

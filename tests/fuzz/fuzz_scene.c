@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "scene_load.h"
+#include "scene/scene_load.h"
 
 static void read_as(enum scene_format format, const char *path) {
   struct scene_loading loading = {.path = path, .format = format, .needs = SCENE_SURFACES};
-  struct slab_error error;
-  if (scene_text_read(&loading, &error) == SLAB_OK)
+  struct error error;
+  if (scene_text_read(&loading, &error) == RESULT_OK)
     for (int k = 0; k < loading.mtl_count; ++k) {
       const struct scene_material *material = &loading.mtl[k].material;
       fuzz_check(scene_text_material(&loading, material->name) == &loading.mtl[k]);

@@ -2,18 +2,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "camera.h"
+#include "cli/cli.h"
+#include "cmd/options.h"
 #include "fuzz.h"
-#include "light_text.h"
-#include "options.h"
-#include "slab_cli.h"
-#include "view_state.h"
+#include "light/light_text.h"
+#include "scene/camera.h"
+#include "viewer/viewer_state.h"
 
 static void read_camera(const char *text) {
   struct camera camera;
-  struct slab_error error;
+  struct error error;
   double forward[3], right[3], up[3], length = 0;
-  if (camera_parse(text, &camera, &error) != SLAB_OK) return;
+  if (camera_parse(text, &camera, &error) != RESULT_OK) return;
   fuzz_check(camera.fov > 0 && camera.fov < 180);
   camera_axes(&camera, forward, right, up);
   for (int c = 0; c < 3; ++c) length += right[c] * right[c];
@@ -36,16 +36,16 @@ static void read_keys(const char *text) {
   bool shift;
   do {
     before = at;
-    if (!view_key_read(&at, &key, &shift)) return;
-    fuzz_check(key >= 0 && key <= VIEW_KEY_ESCAPE && (!key || at > before));
+    if (!viewer_key_read(&at, &key, &shift)) return;
+    fuzz_check(key >= 0 && key <= VIEWER_KEY_ESCAPE && (!key || at > before));
   } while (key);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   struct light_text light;
-  struct slab_error error;
+  struct error error;
   char *text = fuzz_text(data, size);
-  if (light_text_parse(text, &light, &error) == SLAB_OK) {
+  if (light_text_parse(text, &light, &error) == RESULT_OK) {
     fuzz_check(light.path && *light.path && light.scale > 0 && isfinite(light.gain));
     light_text_free(&light);
   }

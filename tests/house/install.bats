@@ -73,7 +73,7 @@ setup_file() {
 
 @test "the reader in light-slab(5) compiles and agrees with the program" {
   cd "$BATS_TEST_TMPDIR"
-  sed -n '/^#include <jansson/,/^}/p' "$ROOT/bakeslab/light-slab.5.scd" | sed 's/\\\\/\\/g' >reader.c
+  sed -n '/^#include <jansson/,/^}/p' "$ROOT/bakeslab/file/light-slab.5.scd" | sed 's/\\\\/\\/g' >reader.c
   gcc -Wall -Wextra -Werror reader.c -o reader -ltiff -ljansson
   cp "$ROOT/lamps/parabolic.pov" .
   "$PREFIX/bin/bakeslab" bake parabolic.pov -o lamp.tif --uv 4x4 --st 16x16 --rays 1

@@ -39,12 +39,12 @@ load house
 
 @test "other flags rebuild, the same flags do not" {
   b=$BATS_TEST_TMPDIR/b
-  one=$b/bakeslab/slab_error.o
+  one=$b/bakeslab/base/result.o
   house_make B="$b" CFLAGS=-O0 "$one"
   run house_make B="$b" CFLAGS=-O0 "$one"
   [[ $output != *CC* ]]
   run house_make B="$b" CFLAGS=-O1 "$one"
-  [[ $output == *"CC    bakeslab/slab_error.c"* ]]
+  [[ $output == *"CC    bakeslab/base/result.c"* ]]
 }
 
 # A folder that comes first in PATH: a dpkg-query that knows every package but

@@ -8,11 +8,11 @@
 static const double allowed = 1e-5, holds = 1e-3, tolerance = 1e-3;
 
 bool gl_is_here(const char **why) {
-  static struct slab_error error;
+  static struct error error;
   static bool asked, here;
   if (!asked) {
     struct gl_context *context = NULL;
-    here = gl_context_create(&context, &error) == SLAB_OK;
+    here = gl_context_create(&context, &error) == RESULT_OK;
     gl_context_free(context);
     asked = true;
   }
@@ -31,17 +31,18 @@ static bool must_take(const struct slab *slab) {
 }
 
 bool lamp_sum_gl(struct lamp *lamp, const struct test_receiver *from, double rgb[3]) {
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   const struct gl_sum_settings settings = {.lights = &lamp->light, .light_count = 1};
   const struct receiver receiver = lamp_receiver(from);
   struct gathered got;
   if (!gl_is_here(NULL)) return false;
-  if (!lamp->gl && gl_gather_create(&settings, &lamp->gl, &error) != SLAB_OK) {
+  if (!lamp->gl && gl_gather_create(&settings, &lamp->gl, &error) != RESULT_OK) {
     if (must_take(&lamp->slab) || !strstr(error.text, "takes lengths of 1e-15 to 1e+15;"))
       fail_msg("%s", error.text);
     return false;
   }
-  if (gl_gather_light(lamp->gl, &receiver, 1, &got, &error) != SLAB_OK) fail_msg("%s", error.text);
+  if (gl_gather_light(lamp->gl, &receiver, 1, &got, &error) != RESULT_OK)
+    fail_msg("%s", error.text);
   memcpy(rgb, got.irradiance, sizeof got.irradiance);
   return true;
 }

@@ -22,7 +22,7 @@
 #undef receiver
 #include <stdio.h>
 
-#include "gl_gather.h"
+#include "gl/gl_gather.h"
 #include "render/oracle.h"
 
 /* All of gather.h, gl the last. */
@@ -67,7 +67,7 @@ int trial_choose(struct trial *trial, int count);
 struct lamp {
   struct slab slab; /* as made; owned */
   struct light light;
-  struct gather_aids levels, trees;
+  struct gather_prepared levels, trees;
   double most;          /* the most that it could send, times the height squared */
   double hemisphere;    /* and from all directions at once */
   bool positive;        /* no sample is negative */

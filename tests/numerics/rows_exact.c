@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "levels.h"
+#include "microlight/levels.h"
+#include "microlight/rule.h"
+#include "microlight/strips.h"
 #include "numerics.h"
-#include "rule.h"
-#include "strips.h"
 
 static const int grid[SLAB_AXES] = {4, 3, 6, 5};
 static const double ordinary[4] = {-0.7, 1.1, -0.9, 0.6};
@@ -117,12 +117,12 @@ static struct products exact_products(const struct slab *slab, const double p[3]
 static struct products found_products(const struct light_axis *axis, double q, double z,
                                       enum rule rule) {
   const struct rule_orders orders = rule_orders(1e-9);
-  struct slab_error error;
+  struct error error;
   struct strips strips = {0};
   struct rule_nodes nodes = {0};
   struct products products = {{{0}}, 0};
-  if (strips_find(axis, q, z, &strips, &error) != SLAB_OK ||
-      rule_place(&strips, rule, &orders, 1, &nodes, &error) != SLAB_OK)
+  if (strips_find(axis, q, z, &strips, &error) != RESULT_OK ||
+      rule_place(&strips, rule, &orders, 1, &nodes, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   for (int k = 0; k < nodes.strips.count; ++k) {
     const struct strip_taps *taps = &nodes.strips.strip[k].taps;

@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "numerics.h"
-#include "occlusion.h"
-#include "scene.h"
+#include "scene/scene.h"
+#include "shadow/occlusion.h"
 
 enum { COUNT = 100 }; /* more than are taken together */
 
@@ -14,8 +14,8 @@ static void place_screen(struct occlusion **occlusion) {
   int corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
   const struct scene scene = {
       .vertices = 4, .triangles = 2, .position = position, .corners = corners};
-  struct slab_error error = {{0}};
-  if (occlusion_create(&scene, occlusion, &error) != SLAB_OK) fail_msg("%s", error.text);
+  struct error error = {{0}};
+  if (occlusion_create(&scene, occlusion, &error) != RESULT_OK) fail_msg("%s", error.text);
 }
 
 /* Near and far, and beside each other; every 5th has a highlight. */

@@ -31,8 +31,8 @@ static double differ(const double a[3], double by, const double b[3], double mos
 }
 
 static void copy_slab(const struct slab *from, struct slab *to) {
-  struct slab_error error = {{0}};
-  if (slab_copy_geometry(from, to, &error) != SLAB_OK || slab_alloc(to, &error) != SLAB_OK)
+  struct error error = {{0}};
+  if (slab_copy_geometry(from, to, &error) != RESULT_OK || slab_alloc(to, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   memcpy(to->rgb, from->rgb, 3 * slab_sample_count(from) * sizeof *to->rgb);
 }
@@ -116,8 +116,8 @@ static void transform(const struct slab *from, bool swap, bool mirror, struct sl
     receiver->p[0] = -receiver->p[0];
     receiver->n[0] = -receiver->n[0];
   }
-  struct slab_error error = {{0}};
-  if (slab_alloc(to, &error) != SLAB_OK) fail_msg("%s", error.text);
+  struct error error = {{0}};
+  if (slab_alloc(to, &error) != RESULT_OK) fail_msg("%s", error.text);
   reorder(from, to, swap, mirror);
 }
 

@@ -67,22 +67,22 @@ static void find_most(const struct slab *slab, struct lamp *lamp) {
 }
 
 void lamp_open(struct lamp *lamp, const struct slab *slab) {
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   const size_t floats = 3 * slab_sample_count(slab);
   *lamp = (struct lamp){.slab = *slab, .positive = true};
   find_most(slab, lamp);
   for (size_t k = 0; k < floats; ++k) lamp->positive = lamp->positive && slab->rgb[k] >= 0;
   const char *path = write_light("lamp.tif", slab, 1);
-  if (light_load(path, &lamp->light, &error) != SLAB_OK ||
-      gather_aids_make(&lamp->light, 1, GATHER_LEVELS, 0, 1, &lamp->levels, &error) != SLAB_OK ||
-      gather_aids_make(&lamp->light, 1, GATHER_CUT, 0, 1, &lamp->trees, &error) != SLAB_OK)
+  if (light_load(path, &lamp->light, &error) != RESULT_OK ||
+      gather_prepare(&lamp->light, 1, GATHER_LEVELS, 0, 1, &lamp->levels, &error) != RESULT_OK ||
+      gather_prepare(&lamp->light, 1, GATHER_CUT, 0, 1, &lamp->trees, &error) != RESULT_OK)
     fail_msg("%s", error.text);
 }
 
 void lamp_close(struct lamp *lamp) {
   gl_gather_free(lamp->gl);
-  gather_aids_free(&lamp->levels);
-  gather_aids_free(&lamp->trees);
+  gather_prepared_free(&lamp->levels);
+  gather_prepared_free(&lamp->trees);
   light_free(&lamp->light);
   slab_free(&lamp->slab);
 }
@@ -91,7 +91,7 @@ void lamp_close(struct lamp *lamp) {
 static void sum(const struct lamp *lamp, const struct gather_settings *wanted,
                 const struct receiver *receivers, int count, struct gathered *gathered,
                 struct gather_counts *counts) {
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct gather_settings settings = *wanted;
   struct gather *gather;
   settings.lights = &lamp->light;
@@ -100,8 +100,8 @@ static void sum(const struct lamp *lamp, const struct gather_settings *wanted,
   if (settings.method == GATHER_LEVELS || settings.method == GATHER_PAPER_LEVELS)
     settings.aids = &lamp->levels;
   if (settings.method == GATHER_CUT) settings.aids = &lamp->trees;
-  if (gather_create(&settings, &gather, &error) != SLAB_OK ||
-      gather_light(gather, receivers, count, gathered, &error) != SLAB_OK)
+  if (gather_create(&settings, &gather, &error) != RESULT_OK ||
+      gather_light(gather, receivers, count, gathered, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   if (counts) *counts = *gather_counts(gather);
   gather_free(gather);

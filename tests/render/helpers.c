@@ -68,7 +68,7 @@ void fill_slab(struct slab *slab, enum fill fill, uint32_t seed) {
 struct slab rough_slab(const int samples[SLAB_AXES], double distance, const double window[4],
                        enum frame frame, enum fill fill, uint32_t seed) {
   struct slab slab = slab_default();
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   memcpy(slab.samples, samples, sizeof slab.samples);
   snprintf(slab.name, sizeof slab.name, "rough");
   for (int k = 0; k < 3; ++k) {
@@ -78,7 +78,7 @@ struct slab rough_slab(const int samples[SLAB_AXES], double distance, const doub
   if (frame != FRAME_PLAIN) turn_frame(&slab, frame == FRAME_MIRRORED, &seed);
   memcpy(slab.st_window, window, sizeof slab.st_window);
   slab.st_distance = distance;
-  if (slab_check(&slab, &error) != SLAB_OK || slab_alloc(&slab, &error) != SLAB_OK)
+  if (slab_check(&slab, &error) != RESULT_OK || slab_alloc(&slab, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   fill_slab(&slab, fill, seed);
   return slab;
@@ -115,9 +115,9 @@ struct receiver aimed_receiver(const struct slab *slab, double z, enum receiver_
 }
 
 const char *write_light(const char *name, const struct slab *slabs, int count) {
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   const char *path = scratch(name);
-  if (slab_file_write(path, slabs, count, SLAB_PRECISION_FLOAT, &error) != SLAB_OK)
+  if (slab_file_write(path, slabs, count, SLAB_PRECISION_FLOAT, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   return path;
 }

@@ -4,7 +4,7 @@
 #ifndef HELPERS_H
 #define HELPERS_H
 
-#include "slab_file.h"
+#include "file/slab_file.h"
 #include "testing.h"
 
 enum { COUNT_MAX = 4096 }; /* receivers in one run */

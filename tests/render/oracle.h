@@ -15,7 +15,7 @@
 #ifndef ORACLE_H
 #define ORACLE_H
 
-#include "slab.h"
+#include "slab/slab.h"
 
 enum { ORACLE_PIECES = 256 }; /* along an axis; more aborts */
 

@@ -2,13 +2,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "camera.h"
+#include "base/vector.h"
 #include "helpers.h"
-#include "vector.h"
+#include "scene/camera.h"
 
 static struct camera parse(const char *text) {
   struct camera camera;
-  struct slab_error error = {""};
+  struct error error = {""};
   if (camera_parse(text, &camera, &error)) fail_msg("%s", error.text);
   return camera;
 }
@@ -91,8 +91,8 @@ static void test_refused(void **state) {
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     struct camera camera;
-    struct slab_error error = {""};
-    assert_int_equal(camera_parse(cases[k][0], &camera, &error), SLAB_BAD);
+    struct error error = {""};
+    assert_int_equal(camera_parse(cases[k][0], &camera, &error), RESULT_BAD);
     if (!strstr(error.text, cases[k][1])) fail_msg("'%s': %s", cases[k][0], error.text);
   }
 }

@@ -6,7 +6,7 @@
 #define receiver test_receiver /* gather.h has another */
 #include "helpers.h"
 #undef receiver
-#include "gather.h"
+#include "gather/gather.h"
 
 static const double window[4] = {-0.7, 1.1, -0.9, 0.6};
 static const int sizes[] = {4, 7, 8, 16, 31, 32, 64};
@@ -14,8 +14,8 @@ enum { SIZES = sizeof sizes / sizeof sizes[0], EACH = 12 };
 
 static struct light load(const struct slab *slabs, int count) {
   struct light light;
-  struct slab_error error = {""};
-  if (light_load(write_light("counts.exr", slabs, count), &light, &error) != SLAB_OK)
+  struct error error = {""};
+  if (light_load(write_light("counts.exr", slabs, count), &light, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   return light;
 }
@@ -31,13 +31,13 @@ static struct receiver copy(const struct test_receiver *from) {
 
 static struct gather_counts count(const struct light *light, enum gather_method method,
                                   const struct receiver *receiver) {
-  struct slab_error error = {""};
+  struct error error = {""};
   struct gather *gather;
   struct gathered gathered;
   const struct gather_settings settings = {
       .lights = light, .light_count = 1, .method = method, .tolerance = 1e-3, .level = -1};
-  if (gather_create(&settings, &gather, &error) != SLAB_OK ||
-      gather_light(gather, receiver, 1, &gathered, &error) != SLAB_OK)
+  if (gather_create(&settings, &gather, &error) != RESULT_OK ||
+      gather_light(gather, receiver, 1, &gathered, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   const struct gather_counts counts = *gather_counts(gather);
   gather_free(gather);

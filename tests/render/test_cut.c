@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cut.h"
-#include "cut_views.h"
-#include "gather.h"
+#include "base/vector.h"
+#include "cut/cut.h"
+#include "cut/cut_views.h"
+#include "gather/gather.h"
 #include "testing.h"
-#include "vector.h"
 
 enum { COUNT = 1000, TILE = 64 };
 static const double window = 1.5;
@@ -40,7 +40,7 @@ static double uniform(uint64_t *seed) {
 struct lit {
   struct light light;
   struct light_page page;
-  struct gather_aids aids;
+  struct gather_prepared aids;
 };
 
 static void fill(struct lit *lit, enum lamp lamp, double gain) {
@@ -60,7 +60,7 @@ static void fill(struct lit *lit, enum lamp lamp, double gain) {
 
 static void make(struct lit *lit, enum lamp lamp, const int samples[SLAB_AXES], double distance,
                  int threads) {
-  struct slab_error error;
+  struct error error;
   memset(lit, 0, sizeof *lit);
   lit->page =
       (struct light_page){.slab = slab_default(), .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -79,16 +79,16 @@ static void make(struct lit *lit, enum lamp lamp, const int samples[SLAB_AXES], 
                                             .far_high = window,
                                             .far_step = 2 * window / samples[2 + k],
                                             .kappa = 1 / distance};
-  assert_int_equal(slab_alloc(slab, &error), SLAB_OK);
+  assert_int_equal(slab_alloc(slab, &error), RESULT_OK);
   fill(lit, lamp, 1);
-  assert_int_equal(light_page_set_samples(&lit->page, &error), SLAB_OK);
+  assert_int_equal(light_page_set_samples(&lit->page, &error), RESULT_OK);
   lit->light = (struct light){.count = 1, .pages = &lit->page, .gain = 1, .scale = 1};
-  assert_int_equal(gather_aids_make(&lit->light, 1, GATHER_CUT, 0, threads, &lit->aids, &error),
-                   SLAB_OK);
+  assert_int_equal(gather_prepare(&lit->light, 1, GATHER_CUT, 0, threads, &lit->aids, &error),
+                   RESULT_OK);
 }
 
 static void release(struct lit *lit) {
-  gather_aids_free(&lit->aids);
+  gather_prepared_free(&lit->aids);
   light_page_free(&lit->page);
 }
 
@@ -115,7 +115,7 @@ static void make_receivers(struct receiver *receivers, int count, double nearest
 
 static void sum(const struct lit *lit, enum gather_method method, double tolerance,
                 const struct receiver *receivers, int count, struct gathered *gathered) {
-  struct slab_error error;
+  struct error error;
   struct gather *gather;
   const struct gather_settings settings = {.lights = &lit->light,
                                            .light_count = 1,
@@ -123,11 +123,11 @@ static void sum(const struct lit *lit, enum gather_method method, double toleran
                                            .method = method,
                                            .tolerance = tolerance,
                                            .level = -1};
-  assert_int_equal(gather_create(&settings, &gather, &error), SLAB_OK);
+  assert_int_equal(gather_create(&settings, &gather, &error), RESULT_OK);
   for (int k = 0; k < count; k += TILE)
     assert_int_equal(gather_light(gather, receivers + k, count - k < TILE ? count - k : TILE,
                                   gathered + k, &error),
-                     SLAB_OK);
+                     RESULT_OK);
   assert_true(gather_counts(gather)->error <= tolerance || method != GATHER_CUT);
   gather_free(gather);
 }
@@ -164,9 +164,9 @@ static double nodes(const struct lit *lit, double tolerance, const struct receiv
   struct cut_work *work = cut_work_make();
   *taken = 0;
   for (int k = 0; k < count; ++k) {
-    struct view view;
+    struct seen_page view;
     double irradiance[3];
-    assert_true(view_find(&lit->page, &receivers[k], &view));
+    assert_true(seen_page_find(&lit->page, &receivers[k], &view));
     if (!cut_sum(lit->aids.trees[0], &view, tolerance, 0, work, irradiance, &counts)) continue;
     assert_true(counts.error <= tolerance);
     ++*taken;
@@ -284,15 +284,15 @@ static void test_linear(void **state) {
   (void)state;
   struct receiver receivers[COUNT];
   struct gathered once[COUNT], more[COUNT];
-  struct slab_error error;
+  struct error error;
   struct lit lit;
   make(&lit, PEAKS, small, INFINITY, 2);
   make_receivers(receivers, COUNT, 2, 100, INFINITY);
   sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, once);
   size_t floats = 3 * slab_sample_count(&lit.page.slab);
   for (size_t k = 0; k < floats; ++k) lit.page.slab.rgb[k] *= 1024;
-  gather_aids_free(&lit.aids);
-  assert_int_equal(gather_aids_make(&lit.light, 1, GATHER_CUT, 0, 2, &lit.aids, &error), SLAB_OK);
+  gather_prepared_free(&lit.aids);
+  assert_int_equal(gather_prepare(&lit.light, 1, GATHER_CUT, 0, 2, &lit.aids, &error), RESULT_OK);
   sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, more);
   for (int k = 0; k < COUNT; ++k)
     for (int c = 0; c < 3; ++c) assert_true(more[k].irradiance[c] == 1024 * once[k].irradiance[c]);
@@ -314,14 +314,14 @@ static void test_threads(void **state) {
 }
 
 /* All views at once. */
-static void sum_views(const struct lit *lit, const struct view *view, int nodes,
+static void sum_views(const struct lit *lit, const struct seen_page *view, int nodes,
                       struct cut_views *views, double rgb[3]) {
   assert_true(cut_views_prepare(lit->aids.trees[0], view, nodes, views));
   cut_views_sum(&views, 1);
   cut_views_light(views, rgb);
 }
 
-static bool is_above(const struct view *view) {
+static bool is_above(const struct seen_page *view) {
   double low[2], high[2], range[2];
   for (int axis = 0; axis < 2; ++axis) {
     low[axis] = (-view->page->axes[axis].half - view->foot[axis]) / view->height;
@@ -346,9 +346,9 @@ static void hold_views(enum lamp lamp, double distance, int done[CUT_VIEWS_NODES
     most = fmax(most, largest(exact[r].irradiance) * pow(receivers[r].position[2], 2));
   for (int r = 0; r < COUNT; ++r)
     for (int digit = 2; digit <= 4; ++digit) {
-      struct view view;
+      struct seen_page view;
       double rgb[3], error;
-      assert_true(view_find(&lit.page, &receivers[r], &view));
+      assert_true(seen_page_find(&lit.page, &receivers[r], &view));
       const int nodes = is_above(&view) ? cut_views_nodes(&view, pow(10, -digit), &error) : 0;
       if (nodes == 0) continue;
       assert_true(error <= pow(10, -digit));
@@ -392,11 +392,11 @@ static void test_refuses(void **state) {
   struct receiver receiver = {.position = {0, 0, 20}, .normal = {0, 0, -1}, .eye = {0, 0, -1}};
   static const double along[3] = {1, 0, 0};
   for (int kind = 0; kind < 3; ++kind) {
-    struct view view;
+    struct seen_page view;
     double irradiance[3];
     receiver.shininess = kind == 1 ? 10 : 0;
     if (kind == 2) memcpy(receiver.normal, along, sizeof along);
-    assert_true(view_find(&lit.page, &receiver, &view));
+    assert_true(seen_page_find(&lit.page, &receiver, &view));
     assert_int_equal(cut_sum(lit.aids.trees[0], &view, 1e-2, 0, work, irradiance, &counts),
                      kind == 0);
     cut_finish(work);

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "helpers.h"
 #include "oracle.h"
-#include "slab_resample.h"
-#include "vector.h"
+#include "slab/slab_resample.h"
 
 static const double window[4] = {-1.3, 1.2, -1.1, 1.4};
 
@@ -141,7 +141,7 @@ static void levels_keep_the_light(void **state) {
   struct slab slab = rough_slab(samples, INFINITY, window, FRAME_PLAIN, FILL_UNIFORM, 11), half;
   const char *file = write_light("level.tif", &slab, 1);
   static const int fewer[SLAB_AXES] = {2, 2, 6, 6};
-  assert_int_equal(slab_resample(&slab, fewer, &half, NULL), SLAB_OK);
+  assert_int_equal(slab_resample(&slab, fewer, &half, NULL), RESULT_OK);
   aim(&slab, 200, 5, 50);
   expect_sums(&half, 1, NULL, 200);
   irradiance(receivers, 200, got, "--light %s --method gl --level 2", file);
@@ -170,7 +170,7 @@ static void energy_is_independent_of_resolution(void **state) {
   for (int n = 12; n >= 3; n /= 2) {
     int coarse[SLAB_AXES] = {n, n, 12, 12};
     double sum = 0, z = 2, half = 1.6, area = 4 * half * half / (SIDE * SIDE);
-    assert_int_equal(slab_resample(&slab, coarse, &other, NULL), SLAB_OK);
+    assert_int_equal(slab_resample(&slab, coarse, &other, NULL), RESULT_OK);
     for (int k = 0; k < SIDE * SIDE; ++k) {
       double a = ((k % SIDE + 0.5) / SIDE * 2 - 1) * half;
       double b = ((k / SIDE + 0.5) / SIDE * 2 - 1) * half; /* NOLINT(bugprone-integer-division) */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gather.h"
+#include "gather/gather.h"
 #include "testing.h"
 
 enum { FINE = 1500 };
@@ -15,11 +15,11 @@ enum { FINE = 1500 };
 static struct light make_light(double distance) {
   struct slab slab = slab_default();
   const int samples[SLAB_AXES] = {5, 4, 9, 8};
-  struct slab_error error;
+  struct error error;
   uint32_t seed = 1;
   memcpy(slab.samples, samples, sizeof samples);
   slab.st_distance = distance;
-  assert_int_equal(slab_alloc(&slab, &error), SLAB_OK);
+  assert_int_equal(slab_alloc(&slab, &error), RESULT_OK);
   for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) {
     seed = seed * 1664525 + 1013904223;
     slab.rgb[k] = (float)(seed >> 8) / (1 << 24);
@@ -36,7 +36,7 @@ static struct light make_light(double distance) {
     page->axes[axis].far_high = 1;
     page->axes[axis].kappa = 1 / distance;
   }
-  assert_int_equal(light_page_set_samples(page, &error), SLAB_OK);
+  assert_int_equal(light_page_set_samples(page, &error), RESULT_OK);
   return light;
 }
 
@@ -95,9 +95,9 @@ static struct gathered gather_one(const struct light *light, const struct receiv
                                      .shadow_edge = 256};
   struct gather *gather = NULL;
   struct gathered gathered;
-  struct slab_error error;
-  assert_int_equal(gather_create(&settings, &gather, &error), SLAB_OK);
-  assert_int_equal(gather_light(gather, receiver, 1, &gathered, &error), SLAB_OK);
+  struct error error;
+  assert_int_equal(gather_create(&settings, &gather, &error), RESULT_OK);
+  assert_int_equal(gather_light(gather, receiver, 1, &gathered, &error), RESULT_OK);
   gather_free(gather);
   return gathered;
 }

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/slab_exr.h"
 #include "helpers.h"
-#include "slab_exr.h"
 
 /* One projector for most tests, oblong in all ways. */
 enum { COLUMNS = 6, ROWS = 4 };
@@ -29,9 +29,9 @@ static const char *project(const char *name, float *rgb, int columns, int rows,
   char command[2048];
   need_program();
   if (!program) skip();
-  struct slab_picture picture = {.width = columns, .height = rows, .rgb = rgb};
+  struct picture picture = {.width = columns, .height = rows, .rgb = rgb};
   const char *image = scratch("image.exr"), *slab = scratch(name);
-  assert_int_equal(slab_exr_write(image, &picture, 0, NULL, NULL), SLAB_OK);
+  assert_int_equal(slab_exr_write(image, &picture, 0, NULL, NULL), RESULT_OK);
   snprintf(command, sizeof command, "'%s' projector '%s' -o '%s' %s", program, image, slab,
            options);
   assert_int_equal(system(command), 0);
@@ -40,9 +40,9 @@ static const char *project(const char *name, float *rgb, int columns, int rows,
 
 static struct slab load(const char *path) {
   struct slab *slabs = NULL;
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   int count = 0;
-  if (slab_file_load_all(path, &slabs, &count, &error) != SLAB_OK) fail_msg("%s", error.text);
+  if (slab_file_load_all(path, &slabs, &count, &error) != RESULT_OK) fail_msg("%s", error.text);
   assert_int_equal(count, 1);
   struct slab slab = slabs[0];
   free(slabs);

@@ -6,10 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/vector.h"
+#include "file/slab_exr.h"
 #include "helpers.h"
-#include "scene.h"
-#include "slab_exr.h"
-#include "vector.h"
+#include "scene/scene.h"
 
 static const char *write_text(const char *name, const char *text) {
   const char *path = scratch(name);
@@ -22,7 +22,7 @@ static const char *write_text(const char *name, const char *text) {
 
 static struct scene load(const char *path, enum scene_needs needs, bool repair, char note[256]) {
   struct scene scene;
-  struct slab_error error = {""};
+  struct error error = {""};
   if (scene_load(path, needs, repair, &scene, note, &error)) fail_msg("%s", error.text);
   return scene;
 }
@@ -30,7 +30,7 @@ static struct scene load(const char *path, enum scene_needs needs, bool repair, 
 /* The message starts with the file's name and holds the piece. */
 static void refused(const char *path, enum scene_needs needs, bool repair, const char *piece) {
   struct scene scene;
-  struct slab_error error = {""};
+  struct error error = {""};
   char note[256] = "x";
   if (!scene_load(path, needs, repair, &scene, note, &error)) fail_msg("%s: not refused", path);
   if (!strstr(error.text, piece) || strchr(error.text, '\n'))
@@ -327,14 +327,14 @@ static void write_picture(const char *name, const char *options) {
   char command[1024];
   char path[512];
   snprintf(path, sizeof path, "%s", scratch(name));
-  struct slab_picture picture = {
-      .width = 2,
-      .height = 2,
-      .rgb = (float[]){0, 0, 0, 0.5F, 0, 0, 0, 0.25F, 0, 0.75F, 0.75F, 0.75F}};
+  struct picture picture = {.width = 2,
+                            .height = 2,
+                            .rgb =
+                                (float[]){0, 0, 0, 0.5F, 0, 0, 0, 0.25F, 0, 0.75F, 0.75F, 0.75F}};
   const char *exr = scratch("picture.exr"), *dot = strrchr(name, '.');
   char made[512]; /* oiiotool would take some of the names for patterns */
   snprintf(made, sizeof made, "%s%s", scratch("made"), dot);
-  assert_int_equal(slab_exr_write(exr, &picture, 0, NULL, NULL), SLAB_OK);
+  assert_int_equal(slab_exr_write(exr, &picture, 0, NULL, NULL), RESULT_OK);
   snprintf(command, sizeof command, "oiiotool '%s' --iscolorspace sRGB %s -o '%s'", exr, options,
            made);
   assert_int_equal(system(command), 0);

@@ -4,8 +4,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/tiles.h"
 #include "helpers.h"
-#include "tiles.h"
 
 enum { TILES = 500, THREADS = 7 };
 
@@ -19,11 +19,11 @@ struct job {
   bool back;
 };
 
-static enum slab_result work(void *context, int tile, int worker, struct slab_error *error) {
+static enum result work(void *context, int tile, int worker, struct error *error) {
   struct job *job = context;
   if (worker < 0 || worker >= job->threads) {
     job->bad_worker = true;
-    return SLAB_OK;
+    return RESULT_OK;
   }
   ++job->of_worker[worker];
   atomic_fetch_add(&job->runs[tile], 1);
@@ -34,9 +34,9 @@ static enum slab_result work(void *context, int tile, int worker, struct slab_er
   for (int k = 0; k < 2; ++k)
     if (tile == job->failing[k]) {
       if (k == 0) nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
-      return slab_fail(error, k ? SLAB_MEMORY : SLAB_BAD, "tile %d", tile);
+      return result_fail(error, k ? RESULT_MEMORY : RESULT_BAD, "tile %d", tile);
     }
-  return SLAB_OK;
+  return RESULT_OK;
 }
 
 static void progress(void *context, double done) {
@@ -49,8 +49,8 @@ static void test_all_once(void **state) {
   (void)state;
   for (int threads = 1; threads <= THREADS; ++threads) {
     struct job job = {.threads = threads, .failing = {-1, -1}};
-    struct slab_error error = {""};
-    assert_int_equal(tiles_run(threads, TILES, work, progress, &job, &error), SLAB_OK);
+    struct error error = {""};
+    assert_int_equal(tiles_run(threads, TILES, work, progress, &job, &error), RESULT_OK);
     int total = 0;
     for (int k = 0; k < TILES; ++k) assert_int_equal(job.runs[k], 1);
     for (int k = 0; k < THREADS; ++k) total += job.of_worker[k];
@@ -65,8 +65,8 @@ static void test_lowest_failure(void **state) {
   (void)state;
   for (int k = 0; k < 20; ++k) {
     struct job job = {.threads = THREADS, .failing = {100, 101}};
-    struct slab_error error = {""};
-    assert_int_equal(tiles_run(THREADS, TILES, work, NULL, &job, &error), SLAB_BAD);
+    struct error error = {""};
+    assert_int_equal(tiles_run(THREADS, TILES, work, NULL, &job, &error), RESULT_BAD);
     assert_string_equal(error.text, "tile 100");
     assert_int_equal(job.runs[TILES - 1], 0);
   }
@@ -75,11 +75,11 @@ static void test_lowest_failure(void **state) {
 static void test_few(void **state) {
   (void)state;
   struct job job = {.threads = 2, .failing = {-1, -1}};
-  struct slab_error error = {""};
-  assert_int_equal(tiles_run(5, 0, work, NULL, &job, &error), SLAB_OK);
-  assert_int_equal(tiles_run(5, 2, work, NULL, &job, &error), SLAB_OK);
+  struct error error = {""};
+  assert_int_equal(tiles_run(5, 0, work, NULL, &job, &error), RESULT_OK);
+  assert_int_equal(tiles_run(5, 2, work, NULL, &job, &error), RESULT_OK);
   assert_false(job.bad_worker); /* no more workers than tiles */
-  assert_int_equal(tiles_run(0, 2, work, NULL, &job, &error), SLAB_BAD);
+  assert_int_equal(tiles_run(0, 2, work, NULL, &job, &error), RESULT_BAD);
   assert_true(tiles_processors() >= 1);
 }
 

@@ -6,11 +6,11 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/vector.h"
 #include "helpers.h"
-#include "occlusion.h"
-#include "scene.h"
-#include "vector.h"
-#include "visible.h"
+#include "scene/scene.h"
+#include "shadow/occlusion.h"
+#include "shadow/visible.h"
 
 enum { MOST = 20000 };
 
@@ -93,7 +93,7 @@ static void add_sphere(struct built *built, int n, double radius) {
 
 static struct occlusion *build_finish(struct built *built) {
   struct occlusion *occlusion;
-  struct slab_error error = {""};
+  struct error error = {""};
   if (occlusion_create(&built->scene, &occlusion, &error)) fail_msg("%s", error.text);
   return occlusion;
 }
@@ -269,7 +269,7 @@ static struct visible_query query_over(const struct occlusion *occlusion, int gr
 }
 
 static void find(const struct visible_query *query, struct visible *visible) {
-  struct slab_error error = {""};
+  struct error error = {""};
   if (visible_find(query, visible, &error)) fail_msg("%s", error.text);
 }
 
@@ -438,11 +438,11 @@ static void test_aligned(void **state) {
   query.edge = 64;
   find(&query, &again);
   assert_near(area(&query, &again) / 2e-9, 1, 1e-6);
-  struct slab_error error = {""};
+  struct error error = {""};
   query.edge = 4;
-  assert_int_equal(visible_find(&query, &again, &error), SLAB_BAD);
+  assert_int_equal(visible_find(&query, &again, &error), RESULT_BAD);
   query.edge = 1 << 20;
-  assert_int_equal(visible_find(&query, &again, &error), SLAB_BAD);
+  assert_int_equal(visible_find(&query, &again, &error), RESULT_BAD);
   visible_free(&visible);
   visible_free(&again);
   occlusion_free(occlusion);
@@ -462,8 +462,8 @@ static void test_refused(void **state) {
   occlusion_free(occlusion);
   add_floor(built, 0, 1);
   built->position[2][1] = NAN;
-  struct slab_error error = {""};
-  assert_int_equal(occlusion_create(&built->scene, &occlusion, &error), SLAB_BAD);
+  struct error error = {""};
+  assert_int_equal(occlusion_create(&built->scene, &occlusion, &error), RESULT_BAD);
   assert_null(occlusion);
   free(built);
 }

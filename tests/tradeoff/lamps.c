@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "slab_exr.h"
-#include "slab_file.h"
+#include "file/slab_exr.h"
+#include "file/slab_file.h"
 
 static const double aperture = 20, slope = 1.5;
 
@@ -43,7 +43,7 @@ static double peaks(double a, double b, double s, double t) {
 typedef double radiance(double a, double b, double s, double t);
 
 static void write_lamp(const char *name, radiance *lamp, const char *path, int uv, int st) {
-  struct slab_error error;
+  struct error error;
   struct slab slab = slab_default();
   if (uv < 1 || st < 1 || uv > 256 || st > 256) die("1 to 256 samples");
   snprintf(slab.name, sizeof slab.name, "%s", name);
@@ -59,7 +59,7 @@ static void write_lamp(const char *name, radiance *lamp, const char *path, int u
   memcpy(slab.st_window, form.st_window, sizeof slab.st_window);
   slab.st_distance = INFINITY;
   slab.metres_per_unit = 0.01;
-  if (slab_alloc(&slab, &error) != SLAB_OK) die(error.text);
+  if (slab_alloc(&slab, &error) != RESULT_OK) die(error.text);
   for (size_t pixel = 0; pixel < slab_sample_count(&slab); ++pixel) {
     int at[SLAB_AXES];
     double x[SLAB_AXES];
@@ -69,7 +69,7 @@ static void write_lamp(const char *name, radiance *lamp, const char *path, int u
     static const double colour[3] = {1, 0.9, 0.7};
     for (size_t c = 0; c < 3; ++c) slab.rgb[3 * pixel + c] = (float)(light * colour[c]);
   }
-  if (slab_file_write(path, &slab, 1, SLAB_PRECISION_FLOAT, &error) != SLAB_OK) die(error.text);
+  if (slab_file_write(path, &slab, 1, SLAB_PRECISION_FLOAT, &error) != RESULT_OK) die(error.text);
   slab_free(&slab);
 }
 
@@ -156,8 +156,8 @@ static double length_of(const float *rgb) {
 }
 
 static void compare(const char *name, const char *other) {
-  struct slab_picture a, b;
-  struct slab_error error;
+  struct picture a, b;
+  struct error error;
   if (slab_exr_read(name, &a, &error) || slab_exr_read(other, &b, &error)) die(error.text);
   if (a.width != b.width || a.height != b.height) die("pictures of two sizes");
   size_t count = (size_t)a.width * (size_t)a.height;
@@ -172,8 +172,8 @@ static void compare(const char *name, const char *other) {
     most = fmax(most, difference / fmax(light, 0.01 * mean));
   }
   printf("%.4g %.4g\n", sqrt(wrong / all), most);
-  slab_picture_free(&a);
-  slab_picture_free(&b);
+  picture_free(&a);
+  picture_free(&b);
 }
 
 int main(int argc, char **argv) {

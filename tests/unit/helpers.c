@@ -24,7 +24,7 @@ struct slab awkward_slab(const int samples[SLAB_AXES], double distance) {
   memcpy(slab.center, center, sizeof center);
   memcpy(slab.st_window, window, sizeof window);
   slab.st_distance = distance;
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   assert_ok(slab_alloc(&slab, &error), &error);
   return slab;
 }
@@ -64,12 +64,12 @@ void oracle_lookup(const struct slab *slab, double a, double b, double s, double
         }
 }
 
-void assert_ok(enum slab_result result, const struct slab_error *error) {
-  if (result != SLAB_OK) fail_msg("result %d: %s", (int)result, error->text);
+void assert_ok(enum result result, const struct error *error) {
+  if (result != RESULT_OK) fail_msg("result %d: %s", (int)result, error->text);
 }
 
-void assert_refused(enum slab_result result, const struct slab_error *error, ...) {
-  if (result == SLAB_OK) fail_msg("was not refused");
+void assert_refused(enum result result, const struct error *error, ...) {
+  if (result == RESULT_OK) fail_msg("was not refused");
   if (strchr(error->text, '\n') || !*error->text) fail_msg("not one line: '%s'", error->text);
   va_list pieces;
   va_start(pieces, error);
@@ -80,10 +80,10 @@ void assert_refused(enum slab_result result, const struct slab_error *error, ...
 }
 
 void assert_file_refused(const char *path, const char *piece1, const char *piece2) {
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct slab *slabs = NULL;
   int count = 0;
-  enum slab_result result = slab_file_load_all(path, &slabs, &count, &error);
+  enum result result = slab_file_load_all(path, &slabs, &count, &error);
   assert_null(slabs);
   assert_refused(result, &error, path, piece1, piece2, NULL);
 }

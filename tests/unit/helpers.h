@@ -3,7 +3,7 @@
 #ifndef HELPERS_H
 #define HELPERS_H
 
-#include "slab_file.h"
+#include "file/slab_file.h"
 #include "testing.h"
 
 /* A number in [0, 1) from a seed; the same on every machine. */
@@ -21,11 +21,11 @@ void fill_colours(struct slab *slab, uint32_t seed);
 void oracle_lookup(const struct slab *slab, double a, double b, double s, double t, double rgb[3]);
 
 /* Fails the test with the message where the operation failed. */
-void assert_ok(enum slab_result result, const struct slab_error *error);
+void assert_ok(enum result result, const struct error *error);
 
 /* The operation must have been refused with a message that holds all of the
  * given pieces, on one line. End the list with NULL. */
-void assert_refused(enum slab_result result, const struct slab_error *error, ...);
+void assert_refused(enum result result, const struct error *error, ...);
 
 /* Opens and loads all of a file; whatever it says must hold the pieces. */
 void assert_file_refused(const char *path, const char *piece1, const char *piece2);

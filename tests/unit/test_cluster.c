@@ -3,12 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cluster.h"
 #include "helpers.h"
-#include "least.h"
-#include "parallelogram.h"
-#include "plane.h"
-#include "point.h"
+#include "include/cluster/cluster.h"
+#include "include/cluster/nnls.h"
+#include "include/cluster/parallelogram.h"
+#include "include/point/point.h"
+#include "slab/plane.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -22,7 +22,7 @@ static struct slab plain_slab(int uv, int st, double slope) {
   slab.u[1] = slab.u[2] = slab.v[0] = slab.v[1] = 0;
   slab.normal[0] = slab.normal[2] = 0;
   slab.normal[1] = -1;
-  assert_int_equal(slab_alloc(&slab, NULL), SLAB_OK);
+  assert_int_equal(slab_alloc(&slab, NULL), RESULT_OK);
   return slab;
 }
 
@@ -38,7 +38,7 @@ static void fill(struct slab *slab, double (*radiance)(const double abst[4], int
 
 static struct cluster fit(const struct slab *slab, int lights) {
   struct cluster cluster;
-  struct slab_error error;
+  struct error error;
   assert_ok(cluster_make(slab, 1, lights, 0, 4, &cluster, &error), &error);
   return cluster;
 }
@@ -82,7 +82,7 @@ static void test_parallelogram(void **state) {
       for (int e = 0; e < d; ++e)
         least = fmin(least, widths[d] * widths[e] / sin(pi * (d - e) / DIRECTIONS));
     struct parallelogram found;
-    struct slab_error error;
+    struct error error;
     assert_ok(parallelogram_around(points, COUNT, &found, &error), &error);
     assert_holds(&found, points, COUNT);
     assert_true(area_of(&found) <= least * (1 + 1e-12));
@@ -94,10 +94,10 @@ static void test_flat_parallelograms(void **state) {
   (void)state;
   double one[3][2] = {{1, 2}, {1, 2}, {1, 2}}, line[4][2] = {{0, 0}, {2, 1}, {4, 2}, {2, 1}};
   struct parallelogram found;
-  assert_int_equal(parallelogram_around(one, 3, &found, NULL), SLAB_OK);
+  assert_int_equal(parallelogram_around(one, 3, &found, NULL), RESULT_OK);
   assert_near(found.center[1], 2, 0);
   assert_near(hypot(found.edge[0][0], found.edge[0][1]), 0, 0);
-  assert_int_equal(parallelogram_around(line, 4, &found, NULL), SLAB_OK);
+  assert_int_equal(parallelogram_around(line, 4, &found, NULL), RESULT_OK);
   assert_near(found.center[0], 2, 1e-15);
   assert_near(hypot(found.edge[0][0], found.edge[0][1]), sqrt(20), 1e-12);
 }
@@ -119,7 +119,7 @@ static void test_nonnegative(void **state) {
         for (int j = 0; j < N; ++j) a[i * N + j] += rows[r][i] * rows[r][j];
       }
     }
-    least_nonnegative(N, a, b, x, scratch);
+    nnls_solve(N, a, b, x, scratch);
     for (int i = 0; i < N; ++i) {
       double slope = -b[i];
       for (int j = 0; j < N; ++j) slope += a[i * N + j] * x[j];
@@ -164,7 +164,7 @@ static void test_slopes(void **state) {
                                       .cos_falloff = 0.6,
                                       .size = {2, 4}};
   double slopes[CLUSTER_NUMBERS], soft = (0.99 - 0.6) / 0.4;
-  cluster_slopes(&light, at, slopes);
+  cluster_gradient(&light, at, slopes);
   for (int n = 0; n < CLUSTER_NUMBERS; ++n) {
     double values[2];
     for (int side = 0; side < 2; ++side) {
@@ -305,7 +305,7 @@ static void test_one_sample(void **state) {
 static void test_refusals(void **state) {
   (void)state;
   struct slab slab = plain_slab(2, 4, 1);
-  struct slab_error error;
+  struct error error;
   struct cluster cluster;
   struct point point;
   assert_refused(cluster_make(&slab, 1, 4, 0, 4, &cluster, &error), &error, "all radiance is zero",
@@ -330,7 +330,7 @@ static void test_point_flux(void **state) {
   (void)state;
   struct slab slab = plain_slab(3, 12, 1.5);
   struct point point;
-  struct slab_error error;
+  struct error error;
   fill(&slab, soft_lamp);
   assert_ok(point_make(&slab, 1, 20, &point, &error), &error);
   double wanted[3], flux[3] = {0, 0, 0};

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "helpers.h"
-#include "housing.h"
+#include "lamp/housing.h"
 
 static void expect(const char *script, const char *housing) {
   char *found = housing_find(script);

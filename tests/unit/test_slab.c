@@ -130,7 +130,7 @@ static void test_units(void **state) {
     struct slab slab = awkward_slab((const int[]){3, 2, 2, 2}, 2 * units[n]);
     fill_colours(&slab, 5);
     double small[3], large[3];
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     struct slab plain = slab;
     plain.st_distance = 2;
     slab_lookup(&plain, 0.07, -0.11, 0.4, 0.5, small);
@@ -144,7 +144,7 @@ static void test_units(void **state) {
 
 static void refuse(void (*spoil)(struct slab *), const char *why) {
   struct slab slab = awkward_slab((const int[]){1, 1, 1, 1}, 1);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   assert_ok(slab_check(&slab, &error), &error);
   spoil(&slab);
   assert_refused(slab_check(&slab, &error), &error, why, NULL);
@@ -244,7 +244,7 @@ static void test_refusals(void **state) {
 static void test_absurd_allocation(void **state) {
   (void)state;
   struct slab slab = slab_default();
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   for (int axis = 0; axis < SLAB_AXES; ++axis) slab.samples[axis] = 11000;
   assert_refused(slab_alloc(&slab, &error), &error, "11000", NULL);
   assert_null(slab.rgb);

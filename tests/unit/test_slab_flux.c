@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "helpers.h"
-#include "slab_resample.h"
+#include "slab/slab_resample.h"
 
 /* int int 1/(1 + x^2 + y^2)^2 over [0,x] x [0,y]: Lambert's corner sum. */
 static double corner(double x, double y) {
@@ -62,7 +62,7 @@ static void test_one_colour(void **state) {
   uint32_t seed = 2;
   for (int n = 0; n < 40; ++n) {
     struct slab slab = awkward_slab((const int[]){2, 2, 3, 3}, INFINITY), *back = NULL;
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     double before[3], after[3], colour[3];
     int count = 0;
     for (int c = 0; c < 3; ++c) colour[c] = pow(random_number(&seed), 2) + 1e-3;
@@ -174,7 +174,7 @@ static void test_reduction_keeps_energy(void **state) {
   (void)state;
   static const int to[][4] = {{1, 1, 1, 1}, {2, 3, 4, 3}, {5, 2, 6, 1}, {3, 5, 7, 2}};
   struct slab slab = awkward_slab((const int[]){5, 6, 7, 3}, 2);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   fill_colours(&slab, 8);
   for (size_t n = 0; n < 4; ++n) {
     struct slab small = {0};
@@ -190,7 +190,7 @@ static void test_reduction_keeps_energy(void **state) {
 static void test_reduction_by_share(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){1, 1, 5, 1}, 2), small = {0};
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   for (int k = 0; k < 5; ++k) slab.rgb[3 * k] = (float)(1 << k);
   assert_ok(slab_resample(&slab, (const int[]){1, 1, 2, 1}, &small, &error), &error);
   assert_near((double)small.rgb[0], (1 + 2 + 2) / 2.5, 1e-6);
@@ -215,7 +215,7 @@ static void test_reduction_by_share(void **state) {
 static void test_enlargement(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){2, 3, 2, 1}, 2), large = {0};
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   fill_colours(&slab, 6);
   assert_ok(slab_resample(&slab, (const int[]){5, 4, 6, 3}, &large, &error), &error);
   for (int i = 0; i < 5; ++i)
@@ -239,7 +239,7 @@ static void test_crop(void **state) {
   const int first[4] = {2, 1, 2, 1}, end[4] = {5, 2, 7, 3}; /* off-centre in u and v */
   for (int d = 0; d < 2; ++d) {
     struct slab slab = awkward_slab((const int[]){5, 2, 8, 4}, distances[d]), part = {0};
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     fill_colours(&slab, 12);
     assert_ok(slab_crop(&slab, first, end, &part, &error), &error);
     assert_ok(slab_check(&part, &error), &error);

@@ -39,7 +39,7 @@ static struct raw_exr plain_exr(void) {
 
 /* Whole pages and single views are the pixels at pixel (i*Ns + k, j*Nt + l). */
 static void expect_pixels(const char *path, int pages) {
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct slab_file *file = NULL;
   assert_ok(slab_file_open(path, &file, &error), &error);
   assert_int_equal(slab_file_pages(file), pages);
@@ -134,7 +134,7 @@ static void test_logluv(void **state) {
                      corrected
                          ? TEXT("[1, 1, 1, 1]", ", \"logluv_white\": [1.0022531, 1.0, 0.9844087]")
                          : TEXT("[1, 1, 1, 1]", ""));
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     struct slab_file *file = NULL;
     assert_ok(slab_file_open(path, &file, &error), &error);
     assert_int_equal(slab_file_precision(file, 0), SLAB_PRECISION_LOGLUV);
@@ -233,7 +233,7 @@ static void test_refused_samples(void **state) {
     assert_file_refused(tiff, "page 2", "sample (2, 1, 3, 6) is not finite");
     raw_exr_write(exr, parts, 2);
     assert_file_refused(exr, "page 2", "sample (2, 1, 3, 6) is not finite");
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     struct slab_file *file = NULL;
     float view[3 * 5 * 7];
     assert_ok(slab_file_open(tiff, &file, &error), &error);
@@ -265,7 +265,7 @@ static void test_refused_pixels(void **state) {
 static void test_foreign_and_empty(void **state) {
   (void)state;
   const char *path = scratch("foreign");
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct slab_file *file = NULL;
   write_bytes(path, "", 0);
   assert_file_refused(path, "is empty", "");
@@ -303,7 +303,7 @@ static void test_truncated(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){3, 2, 5, 7}, 1);
   fill_colours(&slab, 2);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   static const struct {
     const char *name;
     enum slab_precision precision;
@@ -337,7 +337,7 @@ static void test_lying_header(void **state) {
   float few[3] = {1, 1, 1};
   TIFFWriteRawStrip(tif, 0, few, sizeof few);
   TIFFClose(tif);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct slab *slabs = NULL;
   int count = 0;
   assert_refused(slab_file_load_all(path, &slabs, &count, &error), &error, path, "page 1", NULL);

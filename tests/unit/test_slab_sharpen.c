@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/slab_json.h"
 #include "helpers.h"
-#include "slab_json.h"
-#include "slab_sharpen.h"
+#include "slab/slab_sharpen.h"
 
 static const int grids[][4] = {{1, 1, 1, 1}, {2, 1, 1, 5}, {1, 2, 6, 1},
                                {1, 1, 2, 2}, {2, 3, 7, 4}, {1, 1, 64, 64}};
@@ -14,7 +14,7 @@ enum { GRIDS = sizeof grids / sizeof *grids };
 
 static struct slab copy_of(const struct slab *slab) {
   struct slab copy;
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   assert_ok(slab_copy_geometry(slab, &copy, &error), &error);
   assert_ok(slab_alloc(&copy, &error), &error);
   memcpy(copy.rgb, slab->rgb, 3 * sizeof(float) * slab_sample_count(slab));
@@ -22,7 +22,7 @@ static struct slab copy_of(const struct slab *slab) {
 }
 
 static void sharpen(struct slab *slab, enum slab_sharpening how) {
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   assert_ok(slab_sharpen(slab, how, &error), &error);
 }
 
@@ -53,7 +53,7 @@ static void test_cell_means(void **state) {
       for (int c = 0; c < 3; ++c)
         assert_near(interpolated_mean(&sharp, at, c), (double)means.rgb[3 * n + (size_t)c], 1e-6);
     }
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     assert_ok(slab_unsharpen(&sharp, &error), &error);
     for (size_t n = 0; n < 3 * slab_sample_count(&means); ++n)
       assert_near((double)sharp.rgb[n], (double)means.rgb[n], 1e-6);
@@ -178,7 +178,7 @@ static void test_flux(void **state) {
 static void test_record(void **state) {
   (void)state;
   struct slab slab = awkward_slab(grids[0], INFINITY);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   assert_false(slab_is_sharpened(&slab));
   assert_ok(
       slab_json_set(&slab, "provenance", "{\"tool\": \"x\", \"noise\": {\"flux\": 0.5}}", &error),

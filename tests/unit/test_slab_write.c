@@ -14,9 +14,9 @@
 #include <tiffio.h>
 #include <unistd.h>
 
+#include "file/slab_exr.h"
+#include "file/slab_json.h"
 #include "helpers.h"
-#include "slab_exr.h"
-#include "slab_json.h"
 
 static const struct {
   const char *name;
@@ -81,7 +81,7 @@ static void test_round_trips(void **state) {
       struct slab pages[2] = {awkward_slab(grids[g], INFINITY),
                               awkward_slab(grids[3 - g], 1.0 / 3)};
       struct slab *got = NULL;
-      struct slab_error error = {{0}};
+      struct error error = {{0}};
       struct slab_file *file = NULL;
       int count = 0;
       pages[1].metres_per_unit = 0.001;
@@ -110,7 +110,7 @@ static void test_logluv_range(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){1, 1, 25, 3}, INFINITY);
   struct slab *got = NULL;
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   int count = 0;
   for (int k = 0; k < 25; ++k)
     for (int l = 0; l < 3; ++l)
@@ -138,7 +138,7 @@ static void test_logluv_saturated(void **state) {
   static const float colours[6][3] = {{1, 0, 0},    {0, 1, 0},     {0, 0, 1},
                                       {1, 0.3F, 0}, {0, 0.01F, 1}, {1, 0, 0.6F}};
   struct slab slab = awkward_slab((const int[]){1, 1, 6, 50}, INFINITY), *got = NULL;
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   int count = 0;
   for (int k = 0; k < 6; ++k)
     for (int l = 0; l < 50; ++l)
@@ -163,7 +163,7 @@ static void test_logluv_saturated(void **state) {
 static void test_tiff_as_others_see_it(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){3, 2, 16, 32}, 2);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   fill_colours(&slab, 4);
   const char *path = scratch("others.tif");
   for (int logluv = 0; logluv < 2; ++logluv) {
@@ -224,7 +224,7 @@ static void test_unknown_keys_are_kept(void **state) {
       "\"normal\": [0, -1, 0], \"st_window\": [-1, 1, -1, 1], \"samples_are\": \"points\","
       "\"x-colour\": {\"deep\": [1, 2.5, null, \"\\u00e4\"]}, \"name\": \"old\"}";
   struct slab slab, *got = NULL;
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   int count = 0;
   for (int k = 0; k < KINDS; ++k) {
     assert_ok(slab_json_parse(text, &slab, NULL, &error), &error);
@@ -249,7 +249,7 @@ static void test_unknown_keys_are_kept(void **state) {
 static void test_provenance(void **state) {
   (void)state;
   struct slab slab = slab_default();
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   assert_ok(slab_json_set(&slab, "provenance",
                           "{\"command\": \"one\", \"tool\": \"t1\", \"effects\": {\"gloss\": 1}}",
                           &error),
@@ -270,7 +270,7 @@ static void test_provenance(void **state) {
 static void test_provenance_of_changed(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){1, 1, 1, 1}, 1);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   assert_ok(slab_json_set(&slab, "provenance",
                           "{\"command\": \"one\", \"tool\": \"t1\", \"rays\": 16, \"effects\": "
                           "{\"gloss\": 1}, \"noise\": {\"flux\": 0.5}}",
@@ -291,7 +291,7 @@ static void test_provenance_of_changed(void **state) {
 static void test_links(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){1, 1, 2, 2}, 1);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct stat status;
   const char *link = scratch("link.exr"), *target = scratch("linked.exr");
   fill_colours(&slab, 1);
@@ -311,7 +311,7 @@ static void test_links(void **state) {
 
 static void refuse(enum slab_precision precision, const float rgb[3], const char *why) {
   struct slab slab = awkward_slab((const int[]){2, 3, 4, 5}, 1);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   fill_colours(&slab, 1);
   memcpy(slab_at(&slab, 1, 2, 3, 4), rgb, 3 * sizeof(float));
   int before = scratch_entries();
@@ -342,7 +342,7 @@ static void test_extremes(void **state) {
   static const float values[] = {-1, 3e38F, -3e38F, 1e-45F, -0.0F, 1.00001F};
   for (int exr = 0; exr < 2; ++exr) {
     struct slab slab = awkward_slab((const int[]){1, 1, 2, 1}, 1), *got = NULL;
-    struct slab_error error = {{0}};
+    struct error error = {{0}};
     int count = 0;
     const char *path = scratch(exr ? "extreme.exr" : "extreme.tif");
     memcpy(slab.rgb, values, sizeof values);
@@ -363,7 +363,7 @@ static void test_extremes(void **state) {
 static void test_refused_targets(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){1, 1, 1, 1}, 1);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   int before = scratch_entries();
   assert_refused(slab_file_write(scratch("a.png"), &slab, 1, SLAB_PRECISION_DEFAULT, &error),
                  &error, ".exr", NULL);
@@ -397,7 +397,7 @@ static void test_failure_leaves_nothing(void **state) {
   for (int k = 0; k < 2; ++k)
     for (int limit = 16384; limit > 0; limit -= 1800) {
       struct slab slab = awkward_slab((const int[]){4, 4, 16, 16}, 1);
-      struct slab_error error = {{0}};
+      struct error error = {{0}};
       fill_colours(&slab, 9);
       const char *path = scratch(names[k]);
       write_bytes(path, "old", 3);
@@ -405,10 +405,10 @@ static void test_failure_leaves_nothing(void **state) {
       small.rlim_cur = (rlim_t)limit;
       small.rlim_max = old.rlim_max;
       setrlimit(RLIMIT_FSIZE, &small);
-      enum slab_result result = slab_file_write(path, &slab, 1, SLAB_PRECISION_FLOAT, &error);
+      enum result result = slab_file_write(path, &slab, 1, SLAB_PRECISION_FLOAT, &error);
       setrlimit(RLIMIT_FSIZE, &old);
       assert_refused(result, &error, path, "cannot be written", NULL);
-      assert_int_equal(result, SLAB_IO);
+      assert_int_equal(result, RESULT_IO);
       assert_int_equal(scratch_entries(), before);
       struct stat status;
       assert_int_equal(stat(path, &status), 0);
@@ -421,7 +421,7 @@ static void test_failure_leaves_nothing(void **state) {
 static void test_symbolic_link(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){1, 1, 1, 1}, 1);
-  struct slab_error error = {{0}};
+  struct error error = {{0}};
   struct stat status;
   const char *link = scratch("link.tif"), *target = scratch("target.tif");
   write_bytes(target, "old", 3);
@@ -443,14 +443,14 @@ static void test_exr_chunk_sizes(void **state) {
   for (int width = 1; width <= 60; ++width)
     for (int levels = 2; levels < 20; levels += 3) {
       float rgb[3 * 60];
-      struct slab_picture picture = {.width = width, .height = 1, .rgb = rgb}, got = {0};
-      struct slab_error error = {{0}};
+      struct picture picture = {.width = width, .height = 1, .rgb = rgb}, got = {0};
+      struct error error = {{0}};
       for (int k = 0; k < 3 * width; ++k) rgb[k] = (float)floor(levels * random_number(&seed));
       assert_ok(slab_exr_write(path, &picture, 1, "noise", &error), &error);
       assert_ok(slab_exr_read(path, &got, &error), &error);
       assert_int_equal(got.width, width);
       assert_memory_equal(got.rgb, rgb, sizeof(float) * 3 * (size_t)width);
-      slab_picture_free(&got);
+      picture_free(&got);
     }
 }
 
@@ -459,8 +459,8 @@ static void test_exr_errors(void **state) {
   (void)state;
   const char *path = scratch("errors.exr");
   float rgb[3 * 12], off[3 * 12];
-  struct slab_picture picture = {.width = 4, .height = 3, .rgb = rgb, .error = off}, got = {0};
-  struct slab_error error = {{0}};
+  struct picture picture = {.width = 4, .height = 3, .rgb = rgb, .error = off}, got = {0};
+  struct error error = {{0}};
   for (int k = 0; k < 3 * 12; ++k) {
     rgb[k] = (float)k / 7;
     off[k] = -1;
@@ -469,7 +469,7 @@ static void test_exr_errors(void **state) {
   assert_ok(slab_exr_read(path, &got, &error), &error);
   assert_int_equal(got.height, 3);
   assert_memory_equal(got.rgb, rgb, sizeof rgb);
-  slab_picture_free(&got);
+  picture_free(&got);
 }
 
 int main(void) {

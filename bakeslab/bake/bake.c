@@ -1,0 +1,248 @@
+/* bake.c - see bake.h. */
+#include "bake/bake.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bake/bake_provenance.h"
+#include "base/files.h"
+#include "batch/bake_rounds.h"
+#include "file/slab_json.h"
+#include "lamp/housing.h"
+#include "lamp/lamp_depend.h"
+#include "povray/sandbox.h"
+#include "probe/probe_resolution.h"
+#include "probe/probe_window.h"
+#include "slab/slab_accuracy.h"
+#include "slab/slab_profile.h"
+
+struct bake_state {
+  struct povray povray;
+  struct lamp_source source;
+  struct lamp lamp;
+  struct bake_store store;
+  struct bake_rounds rounds;
+  struct effects effects;
+  struct bake_origin origin;
+};
+
+/* A power of two that keeps the picture well inside half float's range. The probe
+ * sees a few thousand rays only, so there is room above what it saw. */
+static double choose_gain(const struct bake_options *options, double peak) {
+  int exponent;
+  if (options->gain > 0) return options->gain;
+  if (isinf(peak)) return 0x1p-16;
+  frexp(peak, &exponent); /* peak < 2^exponent */
+  if (exponent > 13) return ldexp(1, 13 - exponent);
+  if (peak > 0 && exponent < -3) return ldexp(1, -exponent);
+  return 1;
+}
+
+/* The probe rendered as a mesh_camera says whether that works. A process costs about as
+ * much as 16384 meshes or three frames: with far fewer directions than positions, one
+ * image a direction is cheaper. */
+static enum result choose_form(const struct bake_options *options, const struct lamp *lamp,
+                               enum bake_form *form, struct error *error) {
+  bool infinite = true;
+  for (int n = 0; n < lamp->slab_count; ++n) infinite &= isinf(lamp->slabs[n].st_distance) != 0;
+  if (options->form >= 0) {
+    *form = (enum bake_form)options->form;
+    if (*form == BAKE_TRANSPOSED && !infinite)
+      return result_fail(error, RESULT_BAD,
+                         "--camera transposed: needs st planes at infinity, since a camera on a "
+                         "finite one would see what stands in front of the lamp");
+    if (*form == BAKE_MESH && !lamp->mesh_camera)
+      return result_fail(error, RESULT_BAD,
+                         "--camera mesh: this POV-Ray's mesh_camera does not show the faces in "
+                         "order; use --camera perspective");
+    return RESULT_OK;
+  }
+  const int *samples = lamp->slabs[0].samples;
+  double positions = (double)samples[SLAB_U] * samples[SLAB_V],
+         directions = (double)samples[SLAB_S] * samples[SLAB_T];
+  if (infinite && (positions > 4096 * directions))
+    *form = BAKE_TRANSPOSED;
+  else
+    *form = lamp->mesh_camera ? BAKE_MESH : BAKE_PERSPECTIVE;
+  return RESULT_OK;
+}
+
+/* ---- The slab ---- */
+
+/* The lamp's visible housing as SDL, where the script declares one that stands alone. */
+static enum result find_housing(const struct bake_work *work, struct bake_report *report,
+                                char **housing, struct error *error) {
+  char *script = files_read(work->source->folder, strrchr(work->source->path, '/') + 1);
+  char *scratch = NULL;
+  if (!script)
+    return result_fail(error, RESULT_IO, "%s: %s", work->source->script, strerror(errno));
+  errno = 0;
+  *housing = housing_find(script);
+  enum result result = RESULT_OK;
+  if (*housing)
+    result = bake_store_scratch(work->store, &scratch, error);
+  else if (errno == ENOMEM)
+    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (*housing && !result) result = housing_parses(work->povray, *housing, scratch, error);
+  if (result == RESULT_BAD) {
+    report->housing_left_out = true;
+    free(*housing);
+    *housing = NULL;
+    result = RESULT_OK;
+  }
+  free(scratch);
+  free(script);
+  return result;
+}
+
+/* What the samples say of the slab: where it cuts light off, and its own error at the
+ * distances of a tolerance. */
+static enum result judge(const struct bake_work *work, const struct bake_state *state,
+                         struct bake_report *report, struct error *error) {
+  enum result result = RESULT_OK;
+  for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
+    const struct slab *page = &state->lamp.slabs[n];
+    struct slab_profile profile;
+    struct slab_accuracy floor = {0};
+    result = slab_profile(page, &profile, error);
+    for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && !result; ++k) {
+      size_t used = strlen(report->cut_off);
+      if (slab_profile_cut_off(&profile, k / 2, k % 2) > 0)
+        snprintf(report->cut_off + used, sizeof report->cut_off - used, "%spage %d %s %c",
+                 used ? ", " : "", n + 1, k % 2 ? "high" : "low", "uvst"[k / 2]);
+    }
+    slab_profile_free(&profile);
+    if (!result && work->options->tolerance > 0)
+      result = slab_accuracy_estimate(page, 1, &state->origin.resolution.distance, &floor, error);
+    if (!(floor.all <= report->error)) report->error = floor.all;
+  }
+  return result;
+}
+
+static enum result write_slab(const struct bake_work *work, struct bake_state *state,
+                              struct bake_report *report, struct error *error) {
+  const struct bake_options *options = work->options;
+  struct slab *pages = state->lamp.slabs;
+  int count = state->lamp.slab_count;
+  bake_sum_noise(state->rounds.sum, work->look.gain, &state->origin.noise);
+  enum result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
+  if (!result) result = find_housing(work, report, &state->origin.housing, error);
+  char *text = bake_provenance(work, &state->origin);
+  if (!result && !text) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  for (int n = 0; n < count && !result; ++n) {
+    result = slab_json_set(&pages[n], "provenance", text, error);
+    if (!result)
+      result = slab_json_set(&pages[n], "samples_are",
+                             options->centre ? "\"points\"" : "\"cell_means\"", error);
+  }
+  free(text);
+  if (!result) result = judge(work, state, report, error);
+  return result ? result
+                : slab_file_write(options->output, pages, count, options->precision, error);
+}
+
+/* ---- What is to be baked ---- */
+
+/* Reads the lamp with these effects, or those of its Canned_Needs (NULL), and with it all
+ * that cameras need to know. */
+static enum result read_lamp(struct bake_work *work, struct bake_state *state,
+                             const struct effects *effects, struct error *error) {
+  const struct bake_options *options = work->options;
+  char *scratch;
+  lamp_free(&state->lamp);
+  enum result result = bake_store_scratch(&state->store, &scratch, error);
+  if (!result)
+    result =
+        lamp_try(&state->povray, &state->source, scratch, effects, work->stop, &state->lamp, error);
+  free(scratch);
+  for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
+    int *samples = state->lamp.slabs[n].samples;
+    memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]},
+           SLAB_AXES * sizeof *samples);
+    result = slab_check(&state->lamp.slabs[n], error);
+  }
+  if (!result) result = choose_form(options, &state->lamp, &work->look.form, error);
+  if (result) return result;
+  work->slabs = state->lamp.slabs;
+  work->look.defect_rows = state->lamp.defect_rows;
+  work->look.gain = choose_gain(options, state->lamp.peak);
+  return RESULT_OK;
+}
+
+/* Which effects are on: the user's word, else the lamp author's, else those that are found to
+ * matter. What a script reads may depend on them, so it is read again once they are known. */
+static enum result find_effects(struct bake_work *work, struct bake_state *state,
+                                struct bake_report *report, struct error *error) {
+  const char *word = work->options->effects;
+  bool automatic = !strcmp(word, "auto"), probe = !strcmp(word, "probe");
+  enum result result = RESULT_OK;
+  if (automatic) result = read_lamp(work, state, NULL, error);
+  if (!result && automatic && state->lamp.needs_declared)
+    result = effects_parse(state->lamp.needs, "Canned_Needs", &state->effects, error);
+  else if (!result && !automatic && !probe)
+    result = effects_parse(word, "--effects", &state->effects, error);
+  else if (!result) {
+    struct effects all;
+    state->origin.probed = true;
+    result = effects_parse("all", "--effects", &all, error);
+    if (!result) result = read_lamp(work, state, &all, error);
+    if (!result) result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
+  }
+  bool known = automatic && !state->origin.probed && !effects_any(&state->effects);
+  return result || known ? result : read_lamp(work, state, &state->effects, error);
+}
+
+static enum result prepare(struct bake_work *work, struct bake_state *state,
+                           struct bake_report *report, struct error *error) {
+  const struct bake_options *options = work->options;
+  enum result result = find_effects(work, state, report, error);
+  if (!result && options->depend)
+    result = lamp_depend_check(&state->lamp.reads, state->source.path, options->output,
+                               options->depend, error);
+  if (!result && options->window_auto)
+    result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
+  if (!result && options->tolerance > 0)
+    result = probe_resolution(work, state->lamp.slabs, &state->origin.resolution, report, error);
+  if (!result) result = choose_form(options, &state->lamp, &work->look.form, error);
+  work->look.offsets = options->centre             ? BAKE_CENTRE
+                       : bake_is_adaptive(options) ? BAKE_OWN
+                                                   : BAKE_SHARED;
+  return result;
+}
+
+enum result bake(const struct bake_options *options, const volatile sig_atomic_t *stop,
+                 struct bake_report *report, struct error *error) {
+  struct bake_state state = {.store = {.lock = -1}};
+  *report = (struct bake_report){0};
+  struct bake_work work = {.options = options,
+                           .povray = &state.povray,
+                           .source = &state.source,
+                           .lamp = &state.lamp,
+                           .store = &state.store,
+                           .look.effects = &state.effects,
+                           .stop = stop};
+  enum result result = slab_file_check_target(options->output, options->precision, error);
+  if (!result) result = povray_find(options->povray, &state.povray, error);
+  state.povray.sandbox = options->sandbox;
+  if (!result && options->sandbox) result = sandbox_check(error);
+  if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
+  if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
+  if (!result) result = prepare(&work, &state, report, error);
+  if (!result) result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
+  /* A shard leaves the slab to the run without --shard. */
+  report->assembled = options->shards == 1;
+  /* Before the slab: with an old rule, make would take the new slab for up to date. */
+  if (!result && report->assembled && options->depend)
+    result = lamp_depend_write(&state.lamp.reads, state.source.path, options->output,
+                               options->depend, error);
+  if (!result && report->assembled) result = write_slab(&work, &state, report, error);
+  bake_store_close(&state.store, !result && report->assembled);
+  bake_rounds_free(&state.rounds);
+  free(state.origin.housing);
+  lamp_free(&state.lamp);
+  lamp_source_free(&state.source);
+  return result;
+}

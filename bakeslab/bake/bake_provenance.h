@@ -1,0 +1,23 @@
+/* bake_provenance.h - what a baked slab says of its making: the JSON value of its
+ * "provenance", the same for the same bake on any machine. */
+#ifndef BAKE_PROVENANCE_H
+#define BAKE_PROVENANCE_H
+
+#include "batch/bake_run.h"
+#include "probe/probe.h"
+#include "probe/probe_resolution.h"
+#include "probe/probe_window.h"
+
+struct bake_origin {
+  struct bake_noise noise;
+  bool probed;
+  struct probe probe;                 /* where probed */
+  struct probe_windows window;        /* with options->window_auto */
+  struct probe_resolution resolution; /* with options->tolerance */
+  char *housing;                      /* SDL, or NULL */
+};
+
+/* NULL where there is no memory; the caller frees it. */
+char *bake_provenance(const struct bake_work *work, const struct bake_origin *origin);
+
+#endif

@@ -1,0 +1,77 @@
+/* files.c - see files.h. */
+#include "base/files.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+char *files_join(const char *directory, const char *name) {
+  char *path = NULL;
+  if (asprintf(&path, "%s/%s", directory, name) < 0) return NULL;
+  return path;
+}
+
+char *files_read(const char *directory, const char *name) {
+  char *path = files_join(directory, name);
+  char *text = NULL;
+  size_t size = 0;
+  FILE *file = path ? fopen(path, "re") : NULL;
+  int why = errno;
+  /* No text contains a 0: this reads all of it. */
+  if (file && getdelim(&text, &size, 0, file) < 0) {
+    why = errno;
+    if (feof(file) && text) {
+      text[0] = 0;
+    } else {
+      free(text);
+      text = NULL;
+    }
+  }
+  if (file) fclose(file);
+  free(path);
+  errno = why;
+  return text;
+}
+
+enum result files_write(const char *directory, const char *name, const char *text,
+                        struct error *error) {
+  enum result result = RESULT_OK;
+  char *path = files_join(directory, name);
+  if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  FILE *file = fopen(path, "we");
+  bool good = file && fputs(text, file) >= 0;
+  int reason = errno;
+  if (file && fclose(file) != 0 && good) {
+    good = false;
+    reason = errno;
+  }
+  if (!good) result = result_fail(error, RESULT_IO, "%s: %s", path, strerror(reason));
+  free(path);
+  return result;
+}
+
+enum result files_make_directory(const char *path, struct error *error) {
+  while (mkdir(path, 0777) != 0) {
+    struct stat status;
+    int reason = errno;
+    if (reason == EEXIST && lstat(path, &status) != 0) continue; /* removed meanwhile */
+    if (reason == EEXIST && S_ISLNK(status.st_mode) && stat(path, &status) != 0) status.st_mode = 0;
+    if (reason == EEXIST && S_ISDIR(status.st_mode)) return RESULT_OK;
+    return result_fail(error, RESULT_IO, "%s: cannot make this folder: %s", path, strerror(reason));
+  }
+  return RESULT_OK;
+}
+
+static int remove_one(const char *path, const struct stat *status, int type, struct FTW *where) {
+  (void)status, (void)type, (void)where;
+  remove(path);
+  return 0;
+}
+
+void files_remove_tree(const char *path) {
+  nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}

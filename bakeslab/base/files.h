@@ -1,0 +1,28 @@
+/* files.h - small things with files and folders that the bake needs. */
+#ifndef FILES_H
+#define FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/result.h"
+
+/* Joins a folder and a name into a new string, or NULL; the caller frees it. */
+char *files_join(const char *directory, const char *name);
+
+/* The text of directory/name with a 0 at its end; the caller frees it. NULL with errno set
+ * where it cannot be read. */
+char *files_read(const char *directory, const char *name);
+
+/* Writes a text and checks that it got to the disk. */
+enum result files_write(const char *directory, const char *name, const char *text,
+                        struct error *error);
+
+/* Makes a folder; one that is there already is fine. */
+enum result files_make_directory(const char *path, struct error *error);
+
+/* Removes a folder and all that is in it, without following links. Whether
+ * anything was left does not matter to callers: it is their own debris. */
+void files_remove_tree(const char *path);
+
+#endif

@@ -1,0 +1,30 @@
+/* progress.h - a bar with the time left, on stderr while that is a terminal. */
+#ifndef PROGRESS_H
+#define PROGRESS_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct progress {
+  bool shown;
+  double start, drawn; /* seconds */
+  double start_part;   /* what was done before this run */
+};
+
+/* Seconds on a clock that never jumps. */
+double progress_now(void);
+
+/* `quiet`, or a stderr that is no terminal, keeps it silent. */
+void progress_start(struct progress *progress, bool quiet, double part);
+/* part: 0..1 of the work, label: what is being done. Draws at most 5 times a second. */
+void progress_show(struct progress *progress, double part, const char *label);
+/* Clears the line. */
+void progress_end(struct progress *progress);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

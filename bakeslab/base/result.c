@@ -1,0 +1,24 @@
+/* result.c - formats the one line of result.h. */
+#include "base/result.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+void result_one_line(char *text) {
+  for (; *text; ++text)
+    if (*text == '\n' || *text == '\r') *text = ' ';
+}
+
+enum result result_fail(struct error *error, enum result result, const char *format, ...) {
+  if (error) {
+    char text[sizeof error->text]; /* the old text may be among the arguments */
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    result_one_line(text);
+    memcpy(error->text, text, sizeof text);
+  }
+  return result;
+}

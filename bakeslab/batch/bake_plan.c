@@ -1,0 +1,310 @@
+/* bake_plan.c - see bake_plan.h. */
+#include "batch/bake_plan.h"
+
+#include <limits.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A POV-Ray process costs 0.4 s of waiting whatever it renders: batches of a few seconds,
+ * all of a round about equal and a multiple of BATCH_EVEN of them, so that a few processes
+ * end together. Costs are in rays; a camera costs some too, since POV-Ray finds a mesh
+ * camera's face by a linear search through the meshes. */
+enum { BATCH_COST = 1 << 21, CAMERA_COST = 256, BATCH_EVEN = 4, BATCH_FRAMES = 512 };
+
+/* The sides of a tile, and of the largest mesh of directions, whose parsing grows faster
+ * than its faces do. */
+enum { TILE = 16, MESH = 64 };
+
+/* The longest side of a box. */
+static int longest_side(enum bake_form form) {
+  return form == BAKE_MESH ? MESH : INT_MAX;
+}
+
+/* ---- Tiles ---- */
+
+/* Width of a tile along an axis. */
+static int tile_size(const struct bake_tiles *tiles, int page, int axis) {
+  bool covered =
+      tiles->transposed ? axis == SLAB_U || axis == SLAB_V : axis == SLAB_S || axis == SLAB_T;
+  int n = tiles->slabs[page].samples[axis];
+  if (!covered) return 1;
+  return n < 2 * TILE ? n : TILE;
+}
+
+void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES]) {
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    int size = tile_size(tiles, page, axis);
+    grid[axis] = (tiles->slabs[page].samples[axis] + size - 1) / size;
+  }
+}
+
+enum result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages,
+                            bool transposed, struct error *error) {
+  *tiles = (struct bake_tiles){.pages = pages, .slabs = slabs, .transposed = transposed};
+  tiles->first_tile = calloc((size_t)pages + 1, sizeof *tiles->first_tile);
+  if (!tiles->first_tile) return result_fail(error, RESULT_MEMORY, "out of memory");
+  for (int page = 0; page < pages; ++page) {
+    int grid[SLAB_AXES];
+    bake_tile_grid(tiles, page, grid);
+    int64_t count = (int64_t)grid[0] * grid[1] * grid[2] * grid[3];
+    if (count > INT32_MAX / 2 - tiles->first_tile[page])
+      return result_fail(error, RESULT_BAD, "too many samples; choose fewer with --uv or --st");
+    tiles->first_tile[page + 1] = tiles->first_tile[page] + (int)count;
+  }
+  return RESULT_OK;
+}
+
+void bake_tiles_free(struct bake_tiles *tiles) {
+  free(tiles->first_tile);
+  *tiles = (struct bake_tiles){0};
+}
+
+int bake_tile_count(const struct bake_tiles *tiles) {
+  return tiles->first_tile[tiles->pages];
+}
+
+struct bake_box bake_tile_box(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]) {
+  struct bake_box box = {.page = page};
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    int size = tile_size(tiles, page, axis), n = tiles->slabs[page].samples[axis];
+    box.first[axis] = at[axis] * size;
+    box.size[axis] = box.first[axis] + size > n ? n - box.first[axis] : size;
+  }
+  return box;
+}
+
+int bake_tile_number(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]) {
+  int grid[SLAB_AXES];
+  bake_tile_grid(tiles, page, grid);
+  int n = ((at[SLAB_V] * grid[SLAB_U] + at[SLAB_U]) * grid[SLAB_T] + at[SLAB_T]) * grid[SLAB_S] +
+          at[SLAB_S];
+  return tiles->first_tile[page] + n;
+}
+
+int bake_tile_at(const struct bake_tiles *tiles, int page, const int sample[SLAB_AXES]) {
+  int at[SLAB_AXES];
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    at[axis] = sample[axis] / tile_size(tiles, page, axis);
+  return bake_tile_number(tiles, page, at);
+}
+
+/* ---- Rounds ---- */
+
+void bake_round_free(struct bake_round *round) {
+  free(round->boxes);
+  free(round->units);
+  free(round->batches);
+  *round = (struct bake_round){0};
+}
+
+/* Makes room for one more element in an array that grows by doubling. */
+static void *grow(void *array, size_t count, size_t size) {
+  if (count & (count - 1)) return array; /* not a power of two: there is room */
+  return realloc(array, (count ? 2 * count : 1) * size);
+}
+
+static bool add_box(struct bake_round *round, struct bake_box box) {
+  struct bake_box *grown = grow(round->boxes, round->box_count, sizeof box);
+  if (!grown) return false;
+  round->boxes = grown;
+  round->boxes[round->box_count++] = box;
+  return true;
+}
+
+/* Adds a box in parts with sides of at most `most`. */
+static bool add_parts(struct bake_round *round, struct bake_box box, int most) {
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    if (box.size[axis] <= most) continue;
+    struct bake_box rest = box;
+    box.size[axis] = most;
+    rest.first[axis] += most;
+    rest.size[axis] -= most;
+    return add_parts(round, box, most) && add_parts(round, rest, most);
+  }
+  return add_box(round, box);
+}
+
+static bool add_unit(struct bake_round *round, int box, int pass) {
+  struct bake_unit *grown = grow(round->units, round->unit_count, sizeof *grown);
+  if (!grown) return false;
+  round->units = grown;
+  round->units[round->unit_count++] = (struct bake_unit){box, pass};
+  return true;
+}
+
+/* The stride by which to visit `count` things, each once, so that any run of visits is spread
+ * over all of them: near the golden section, and without a common factor. */
+static size_t spreading_stride(size_t count) {
+  size_t stride = (size_t)(0.6180339887498949 * (double)count);
+  for (;; ++stride) {
+    size_t a = count, b = stride;
+    while (b) {
+      size_t rest = a % b;
+      a = b, b = rest;
+    }
+    if (a == 1) return stride;
+  }
+}
+
+/* All passes from `from` to before `to` of the boxes from `box` on, pairs together. Batches
+ * gather interreflected light each for itself, one a little brighter than another: `spread`,
+ * neighbouring boxes are in different ones, and no seam runs through the slab. */
+static bool add_passes(struct bake_round *round, size_t box, int from, int to, bool spread) {
+  size_t count = round->box_count - box, stride = spread && count ? spreading_stride(count) : 1;
+  for (int pair = from; pair < to; pair += 2)
+    for (size_t n = 0, at = 0; n < count; ++n, at = (at + stride) % count)
+      for (int pass = pair; pass < pair + 2 && pass < to; ++pass)
+        if (!add_unit(round, (int)(box + at), pass)) return false;
+  return true;
+}
+
+static bool same_shape(const struct bake_box *a, const struct bake_box *b) {
+  return !memcmp(a->size, b->size, sizeof a->size);
+}
+
+static size_t batch_cost(const struct bake_batch *batch) {
+  return batch->rays + CAMERA_COST * batch->count;
+}
+
+/* The cost at which a batch is full. */
+static size_t full_cost(const struct bake_round *round) {
+  struct bake_batch all = {.count = round->unit_count};
+  for (size_t unit = 0; unit < round->unit_count; ++unit)
+    all.rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
+  size_t batches = (batch_cost(&all) + BATCH_COST - 1) / BATCH_COST;
+  if (batches > 1) batches = (batches + BATCH_EVEN - 1) / BATCH_EVEN * BATCH_EVEN;
+  return batches ? (batch_cost(&all) + batches - 1) / batches : 1;
+}
+
+/* Whether a unit may join the batch. Frames of an animation are all of one shape. */
+static bool fits(const struct bake_round *round, const struct bake_batch *batch, size_t unit,
+                 enum bake_form form, size_t full) {
+  if (!batch->count) return true;
+  const struct bake_box *box = &round->boxes[round->units[unit].box];
+  const struct bake_box *first = &round->boxes[round->units[batch->first].box];
+  bool second_of_pair =
+      round->units[unit].pass % 2 && round->units[unit - 1].box == round->units[unit].box;
+  if (second_of_pair) return true;
+  if (form != BAKE_MESH && (batch->count >= BATCH_FRAMES || !same_shape(box, first))) return false;
+  return batch_cost(batch) < full;
+}
+
+static enum result cut_batches(struct bake_round *round, enum bake_form form, struct error *error) {
+  size_t full = full_cost(round);
+  for (size_t unit = 0; unit < round->unit_count; ++unit) {
+    struct bake_batch *last = round->batch_count ? &round->batches[round->batch_count - 1] : NULL;
+    if (!last || !fits(round, last, unit, form, full)) {
+      struct bake_batch *grown = grow(round->batches, round->batch_count, sizeof *grown);
+      if (!grown) return result_fail(error, RESULT_MEMORY, "out of memory");
+      round->batches = grown;
+      last = &round->batches[round->batch_count++];
+      *last = (struct bake_batch){.first = unit};
+    }
+    ++last->count;
+    last->rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
+  }
+  return RESULT_OK;
+}
+
+/* Boxes that cover whole views (or, transposed, whole directions), as few as `most` allows. */
+static bool add_whole_boxes(const struct bake_tiles *tiles, int most, struct bake_round *round) {
+  for (int page = 0; page < tiles->pages; ++page) {
+    const int *n = tiles->slabs[page].samples;
+    int slow = tiles->transposed ? n[SLAB_T] : n[SLAB_V],
+        fast = tiles->transposed ? n[SLAB_S] : n[SLAB_U];
+    for (int y = 0; y < slow; ++y)
+      for (int x = 0; x < fast; ++x) {
+        struct bake_box box = {page, {x, y, 0, 0}, {1, 1, n[SLAB_S], n[SLAB_T]}};
+        if (tiles->transposed)
+          box = (struct bake_box){page, {0, 0, x, y}, {n[SLAB_U], n[SLAB_V], 1, 1}};
+        if (!add_parts(round, box, most)) return false;
+      }
+  }
+  return true;
+}
+
+enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
+                            struct bake_round *round, struct error *error) {
+  *round = (struct bake_round){0};
+  if (!add_whole_boxes(tiles, longest_side(form), round) || !add_passes(round, 0, 0, passes, true))
+    return result_fail(error, RESULT_MEMORY, "out of memory");
+  return cut_batches(round, form, error);
+}
+
+/* The box among those from `first` on that `box` continues downwards without growing
+ * longer than `most`; or the number of boxes. */
+static size_t find_above(const struct bake_round *round, size_t first, const struct bake_box *box,
+                         int x_axis, int y_axis, int most) {
+  size_t n = first;
+  for (; n < round->box_count; ++n) {
+    const struct bake_box *above = &round->boxes[n];
+    if (above->first[x_axis] == box->first[x_axis] && above->size[x_axis] == box->size[x_axis] &&
+        above->first[y_axis] + above->size[y_axis] == box->first[y_axis] &&
+        above->size[y_axis] <= most - box->size[y_axis])
+      break;
+  }
+  return n;
+}
+
+/* Covers the tiles of one camera that want more than `passes` by rectangles: runs of
+ * tiles along a row, joined with a run of the same extent in the row before. */
+static bool add_covering(const struct bake_tiles *tiles, int page, int at[SLAB_AXES],
+                         const int *wanted, int passes, int most, struct bake_round *round) {
+  int x_axis = tiles->transposed ? SLAB_U : SLAB_S, y_axis = tiles->transposed ? SLAB_V : SLAB_T;
+  int grid[SLAB_AXES];
+  bake_tile_grid(tiles, page, grid);
+  size_t first = round->box_count;
+  for (int y = 0; y < grid[y_axis]; ++y)
+    for (int x = 0; x < grid[x_axis]; ++x) {
+      at[x_axis] = x, at[y_axis] = y;
+      if (wanted[bake_tile_number(tiles, page, at)] <= passes) continue;
+      struct bake_box box = bake_tile_box(tiles, page, at);
+      for (; x + 1 < grid[x_axis]; ++x) {
+        at[x_axis] = x + 1;
+        int width = bake_tile_box(tiles, page, at).size[x_axis];
+        if (wanted[bake_tile_number(tiles, page, at)] <= passes) break;
+        if (box.size[x_axis] > most - width) break;
+        box.size[x_axis] += width;
+      }
+      size_t above = find_above(round, first, &box, x_axis, y_axis, most);
+      if (above < round->box_count)
+        round->boxes[above].size[y_axis] += box.size[y_axis];
+      else if (!add_box(round, box))
+        return false;
+    }
+  return true;
+}
+
+static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int passes, int most,
+                      struct bake_round *round) {
+  int slow_axis = tiles->transposed ? SLAB_T : SLAB_V,
+      fast_axis = tiles->transposed ? SLAB_S : SLAB_U;
+  for (int page = 0; page < tiles->pages; ++page) {
+    int grid[SLAB_AXES];
+    bake_tile_grid(tiles, page, grid);
+    for (int y = 0; y < grid[slow_axis]; ++y)
+      for (int x = 0; x < grid[fast_axis]; ++x) {
+        int at[SLAB_AXES] = {0};
+        at[fast_axis] = x, at[slow_axis] = y;
+        if (!add_covering(tiles, page, at, wanted, passes, most, round)) return false;
+      }
+  }
+  return true;
+}
+
+enum result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, int pilot,
+                           enum bake_form form, struct bake_round *round, struct error *error) {
+  *round = (struct bake_round){0};
+  int most = pilot;
+  for (int tile = 0; tile < bake_tile_count(tiles); ++tile)
+    if (wanted[tile] > most) most = wanted[tile];
+  for (int passes = pilot; passes < most; passes *= 2) {
+    size_t box = round->box_count;
+    int to = 2 * passes < most ? 2 * passes : most;
+    if (!add_stage(tiles, wanted, passes, longest_side(form), round) ||
+        !add_passes(round, box, passes, to, form == BAKE_MESH))
+      return result_fail(error, RESULT_MEMORY, "out of memory");
+  }
+  return cut_batches(round, form, error);
+}

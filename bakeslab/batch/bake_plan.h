@@ -1,0 +1,71 @@
+/* bake_plan.h - what a bake renders: which boxes in which passes, cut into batches.
+ *
+ * Two rounds. The pilot shoots the first passes everywhere. The second round knows
+ * the pilot's noise and spends the rest of the rays where they count: on tiles (a
+ * position and a tile of directions, or the transpose) that are noisy, none on tiles
+ * that are black and beside black ones. Nothing in a plan depends on the number of
+ * jobs, so that several processes make the same one from the same pilot. */
+#ifndef BAKE_PLAN_H
+#define BAKE_PLAN_H
+
+#include "batch/bake_rays.h"
+
+enum bake_form { BAKE_MESH, BAKE_PERSPECTIVE, BAKE_TRANSPOSED };
+
+/* A grid of tiles over each page: a tile is one sample wide along the axes that a
+ * camera doesn't cover. Tiles of all pages are numbered through. */
+struct bake_tiles {
+  int pages;
+  const struct slab *slabs; /* not owned */
+  bool transposed;          /* a camera covers u and v rather than s and t */
+  int *first_tile;          /* [pages + 1] */
+};
+
+enum result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages,
+                            bool transposed, struct error *error);
+void bake_tiles_free(struct bake_tiles *tiles);
+int bake_tile_count(const struct bake_tiles *tiles);
+/* Tiles along each axis of a page. */
+void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES]);
+/* The box of a tile, given its place in that grid. */
+struct bake_box bake_tile_box(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]);
+/* The number of a tile, given its place in its page's grid. */
+int bake_tile_number(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]);
+/* The number of the tile that holds a sample. */
+int bake_tile_at(const struct bake_tiles *tiles, int page, const int sample[SLAB_AXES]);
+
+struct bake_unit {
+  int box, pass; /* one image of one camera */
+};
+
+/* Units rendered by one POV-Ray process. A batch never parts a pair of passes. */
+struct bake_batch {
+  size_t first, count; /* in units[] */
+  size_t rays;
+};
+
+struct bake_round {
+  struct bake_box *boxes;
+  struct bake_unit *units;
+  struct bake_batch *batches;
+  size_t box_count, unit_count, batch_count;
+};
+void bake_round_free(struct bake_round *round);
+
+/* `passes` everywhere, one box a camera. */
+enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
+                            struct bake_round *round, struct error *error);
+
+/* Passes for each tile (bake_allocate.c): `budget` rays a sample on average, between
+ * pilot and most, in proportion to the tile's deviation (Neyman's allocation), each the
+ * pilot times a power of two, or most. deviation[] is the standard deviation of the mean
+ * of one pair of passes, by tile. A tile counts at least half as much as its noisiest
+ * neighbour, since it may hold what the pilot missed. */
+enum result bake_plan_allocate(const struct bake_tiles *tiles, const double *deviation, int pilot,
+                               int budget, int most, int *passes, struct error *error);
+
+/* The passes from `pilot` on that each tile is to get, in as few boxes as possible. */
+enum result bake_plan_rest(const struct bake_tiles *tiles, const int *passes, int pilot,
+                           enum bake_form form, struct bake_round *round, struct error *error);
+
+#endif

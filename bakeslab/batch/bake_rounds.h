@@ -1,0 +1,23 @@
+/* bake_rounds.h - the rays of a bake, summed: pilot passes everywhere, then the rest of
+ * the passes where those were noisy. */
+#ifndef BAKE_ROUNDS_H
+#define BAKE_ROUNDS_H
+
+#include "batch/bake_run.h"
+
+struct bake_rounds {
+  struct bake_tiles tiles;
+  struct bake_round pilot, rest;
+  struct bake_sum *sum; /* whole, unless options->shards > 1 */
+};
+
+/* Whether tiles get passes by their noise. */
+bool bake_is_adaptive(const struct bake_options *options);
+
+/* Renders and sums work->slabs. Free the rounds with bake_rounds_free in any case. */
+enum result bake_rounds_run(const struct bake_work *work, const char *label,
+                            struct bake_rounds *rounds, struct bake_report *report,
+                            struct error *error);
+void bake_rounds_free(struct bake_rounds *rounds);
+
+#endif

@@ -1,0 +1,323 @@
+/* bake_run.c - see bake_run.h. */
+#include "batch/bake_run.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/files.h"
+
+/* POV-Ray waits for itself for some 0.2 s before its first pixel and after its last one:
+ * the next process may start when one has no more than OVERLAP seconds to render. */
+static const double OVERLAP = 0.4;
+
+enum process_state { IDLE, RENDERING, CLOSING };
+
+struct process {
+  enum process_state state;
+  pid_t pid;
+  double start; /* seconds */
+  size_t batch;
+  char key[33];
+  char *scratch;
+  struct povray_job job; /* directory is scratch */
+};
+
+struct run {
+  const struct bake_work *work;
+  const struct bake_round *round;
+  struct lamp_library library;
+  struct process *processes; /* 2 * jobs: as many may be closing as are rendering */
+  int slots;
+  float *rgb;           /* room for the largest batch, to verify it */
+  struct bake_sum *sum; /* or NULL */
+  bool *ready;          /* by batch: finished */
+  size_t summed;        /* batches added to the sum */
+  size_t *order;        /* batches to render, in this order */
+  size_t count, next;
+  size_t rays_done, rays_all;
+  double traced, depth; /* see bake_report */
+  struct progress progress;
+};
+
+/* The scene of a batch, and the key under which the store has it. */
+static char *batch_text(const struct bake_work *work, const struct bake_round *round, size_t batch,
+                        struct povray_job *job, char key[33]) {
+  *job = (struct povray_job){0};
+  bake_scene_size(&work->look, round, &round->batches[batch], job);
+  char *text = bake_scene_text(&work->look, work->slabs, work->lamp->slab_count, round,
+                               &round->batches[batch]);
+  if (text) bake_store_key(key, text, work->lamp->reads.key, work->povray->version, NULL);
+  return text;
+}
+
+/* Reads a finished batch into run->rgb; refuses one that is not whole. */
+static enum result read_batch(struct run *run, size_t batch, struct error *error) {
+  const struct bake_work *work = run->work;
+  struct povray_job job;
+  char key[33];
+  char *text = batch_text(work, run->round, batch, &job, key);
+  char *path = text ? bake_store_path(work->store, key) : NULL;
+  job.directory = path;
+  enum result result = path ? bake_scene_read(&work->look, run->round, &run->round->batches[batch],
+                                              &job, run->rgb, error)
+                            : result_fail(error, RESULT_MEMORY, "out of memory");
+  free(path);
+  free(text);
+  return result;
+}
+
+/* Takes note of a finished batch, which run->rgb holds, and sums what has its turn. */
+static enum result take_batch(struct run *run, size_t batch, struct error *error) {
+  run->rays_done += run->round->batches[batch].rays;
+  run->ready[batch] = true;
+  enum result result = RESULT_OK;
+  while (run->sum && !result && run->summed < run->round->batch_count && run->ready[run->summed]) {
+    size_t next = run->summed++;
+    if (next != batch) result = read_batch(run, next, error);
+    if (!result) bake_sum_add(run->sum, run->round, &run->round->batches[next], run->rgb);
+  }
+  return result;
+}
+
+/* ---- Starting and ending processes ---- */
+
+/* Removes what a failed process has left, or nothing where its folder has moved to the
+ * store, and frees the slot. */
+static void release(struct process *process, bool remove) {
+  if (remove && process->scratch) files_remove_tree(process->scratch);
+  free(process->scratch);
+  process->scratch = NULL;
+  process->state = IDLE;
+}
+
+static enum result start_batch(struct run *run, struct process *process, size_t batch,
+                               struct error *error) {
+  const struct bake_work *work = run->work;
+  *process = (struct process){.batch = batch};
+  char *text = batch_text(work, run->round, batch, &process->job, process->key);
+  enum result result = text ? bake_store_scratch(work->store, &process->scratch, error)
+                            : result_fail(error, RESULT_MEMORY, "out of memory");
+  process->job.directory = process->scratch;
+  process->job.library = run->library.paths;
+  if (!result) result = lamp_source_link(work->source, process->scratch, error);
+  if (!result) result = files_write(process->scratch, "scene.pov", text, error);
+  if (!result) result = povray_start(work->povray, &process->job, &process->pid, error);
+  free(text);
+  if (!result) {
+    process->state = RENDERING;
+    process->start = progress_now();
+    return RESULT_OK;
+  }
+  release(process, true);
+  return result;
+}
+
+/* POV-Ray dies of a full disk without saying so; another reason may be the true one. What it
+ * did not finish, some 26 bytes a ray, it may have removed. */
+static enum result explain_full_disk(const struct bake_store *store, size_t rays,
+                                     enum result result, struct error *error) {
+  struct statvfs disk;
+  if (result == RESULT_STOPPED || statvfs(store->directory, &disk) != 0) return result;
+  if ((double)disk.f_bavail * (double)disk.f_frsize > (1 << 20) + 26.0 * (double)rays)
+    return result;
+  return result_fail(error, RESULT_IO,
+                     "%s: the disk is full; make room and run the same command again, it goes on "
+                     "from the finished batches (%s)",
+                     store->directory, error->text);
+}
+
+/* Takes POV-Ray's own counts from the log of a finished batch. */
+static void count_work(struct run *run, const char *directory) {
+  static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
+  for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)
+    run->traced += fmax(0, povray_statistic(directory, labels[n]));
+  run->depth = fmax(run->depth, povray_statistic(directory, "Max Level:"));
+}
+
+/* Photons that miss their targets are silent in POV-Ray, and lose the light. */
+static enum result check_photons(const struct run *run, const struct process *process,
+                                 struct error *error) {
+  enum { TOO_FEW = 1000 };
+  const struct effects *effects = run->work->look.effects;
+  if (!effects->setting[CAUSTICS]) return RESULT_OK;
+  double shot = povray_statistic(process->scratch, "Number of photons shot:");
+  double stored = povray_statistic(process->scratch, "Surface photons stored:");
+  if (shot >= TOO_FEW && stored > 0) return RESULT_OK;
+  if (!effects->named && (shot <= 0 || shot >= TOO_FEW)) return RESULT_OK;
+  return result_fail(error, RESULT_BAD,
+                     "caustics: POV-Ray shot %.0f photons and stored %.0f; give the glass or "
+                     "mirror `photons { target ... }`, keep its centre off the bulb's, or leave "
+                     "caustics out of --effects",
+                     shot > 0 ? shot : 0, stored > 0 ? stored : 0);
+}
+
+static enum result end_batch(struct run *run, struct process *process, int status,
+                             struct error *error) {
+  const struct bake_work *work = run->work;
+  const struct bake_batch *batch = &run->round->batches[process->batch];
+  enum result result = povray_finish(&process->job, status, error);
+  if (result) lamp_source_rename(work->source, error);
+  if (!result)
+    result = bake_scene_read(&work->look, run->round, batch, &process->job, run->rgb, error);
+  if (!result) result = check_photons(run, process, error);
+  if (result == RESULT_BAD) result_fail(error, result, "%s: %s", work->options->lamp, error->text);
+  if (!result) result = lamp_reads_unchanged(&work->lamp->reads, error);
+  if (!result) count_work(run, process->scratch);
+  if (!result) result = bake_store_commit(work->store, process->scratch, process->key, error);
+  if (result) result = explain_full_disk(work->store, batch->rays, result, error);
+  release(process, result != RESULT_OK);
+  return result ? result : take_batch(run, process->batch, error);
+}
+
+static void kill_all(struct run *run) {
+  for (int n = 0; n < run->slots; ++n) {
+    struct process *process = &run->processes[n];
+    if (process->state == IDLE) continue;
+    kill(process->pid, SIGKILL);
+    while (waitpid(process->pid, NULL, 0) < 0 && errno == EINTR) continue;
+    release(process, true);
+  }
+}
+
+/* ---- The loop ---- */
+
+static bool is_verified(struct run *run, size_t batch, const char *key) {
+  if (!bake_store_has(run->work->store, key)) return false;
+  bool whole = read_batch(run, batch, NULL) == RESULT_OK;
+  char *path = bake_store_path(run->work->store, key);
+  if (path && whole) count_work(run, path);
+  if (path && !whole) files_remove_tree(path); /* damaged: bake it again */
+  free(path);
+  return whole;
+}
+
+/* Moves `next` to a batch that the store lacks. */
+static enum result skip_found(struct run *run, struct bake_report *report, struct error *error) {
+  for (; run->next < run->count; ++run->next) {
+    size_t batch = run->order[run->next];
+    struct povray_job job;
+    char key[33];
+    char *text = batch_text(run->work, run->round, batch, &job, key);
+    bool found = text && is_verified(run, batch, key);
+    free(text);
+    if (!found) return RESULT_OK;
+    ++report->found;
+    enum result result = take_batch(run, batch, error);
+    if (result) return result;
+    run->progress.start_part = (double)run->rays_done / (double)run->rays_all;
+  }
+  return RESULT_OK;
+}
+
+static int count_rendering(const struct run *run, double *rays) {
+  int rendering = 0;
+  *rays = (double)run->rays_done;
+  for (int n = 0; n < run->slots; ++n) {
+    struct process *process = &run->processes[n];
+    if (process->state == IDLE) continue;
+    double part = povray_progress(&process->job);
+    if (part > 0 && (progress_now() - process->start) * (1 - part) / part < OVERLAP)
+      process->state = CLOSING;
+    rendering += process->state == RENDERING;
+    *rays += part * (double)run->round->batches[process->batch].rays;
+  }
+  return rendering;
+}
+
+static struct process *idle_process(struct run *run) {
+  for (int n = 0; n < run->slots; ++n)
+    if (run->processes[n].state == IDLE) return &run->processes[n];
+  return NULL;
+}
+
+static enum result collect(struct run *run, struct bake_report *report, struct error *error) {
+  for (int n = 0; n < run->slots; ++n) {
+    struct process *process = &run->processes[n];
+    int status;
+    struct rusage usage;
+    if (process->state == IDLE || wait4(process->pid, &status, WNOHANG, &usage) != process->pid)
+      continue;
+    report->cpu += (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                   1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+    report->rays += (double)run->round->batches[process->batch].rays;
+    enum result result = end_batch(run, process, status, error);
+    if (result) return result;
+  }
+  return RESULT_OK;
+}
+
+static enum result loop(struct run *run, const char *label, struct bake_report *report,
+                        struct error *error) {
+  for (;;) {
+    if (*run->work->stop)
+      return result_fail(error, RESULT_STOPPED,
+                         "interrupted; finished batches are in %s, and the same command goes on "
+                         "from them",
+                         run->work->store->directory);
+    enum result result = collect(run, report, error);
+    if (result) return result;
+    double rays;
+    int rendering = count_rendering(run, &rays);
+    progress_show(&run->progress, rays / (double)run->rays_all, label);
+    for (; rendering < run->work->options->jobs; ++rendering) {
+      struct process *process = idle_process(run);
+      if (process) result = skip_found(run, report, error);
+      if (result) return result;
+      if (!process || run->next == run->count) break;
+      result = start_batch(run, process, run->order[run->next++], error);
+      if (result) return explain_full_disk(run->work->store, 0, result, error);
+    }
+    bool busy = false;
+    for (int n = 0; n < run->slots; ++n) busy |= run->processes[n].state != IDLE;
+    if (!busy && run->next == run->count) return RESULT_OK;
+    nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+  }
+}
+
+/* This shard's batches first, then the others'. Returns the rays of the largest. */
+static size_t put_in_order(struct run *run) {
+  size_t largest = 1, shards = (size_t)run->work->options->shards;
+  for (size_t turn = 0; turn < (run->sum ? shards : 1); ++turn)
+    for (size_t n = ((size_t)run->work->options->shard + turn) % shards;
+         n < run->round->batch_count; n += shards) {
+      run->order[run->count++] = n;
+      run->rays_all += run->round->batches[n].rays;
+      if (run->round->batches[n].rays > largest) largest = run->round->batches[n].rays;
+    }
+  return largest;
+}
+
+enum result bake_run(const struct bake_work *work, const struct bake_round *round,
+                     struct bake_sum *sum, const char *label, struct bake_report *report,
+                     struct error *error) {
+  struct run run = {.work = work, .round = round, .sum = sum, .slots = 2 * work->options->jobs};
+  run.processes = calloc((size_t)run.slots, sizeof *run.processes);
+  run.order = malloc((round->batch_count + 1) * sizeof *run.order);
+  run.ready = calloc(round->batch_count + 1, sizeof *run.ready);
+  size_t largest = run.order ? put_in_order(&run) : 1;
+  run.rgb = malloc(largest * 3 * sizeof *run.rgb);
+  report->batches += (int)run.count;
+  lamp_source_library(work->source, &run.library);
+  enum result result = RESULT_OK;
+  if (!run.processes || !run.order || !run.ready || !run.rgb)
+    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  progress_start(&run.progress, work->options->quiet, 0);
+  if (!result) result = loop(&run, label, report, error);
+  if (run.processes) kill_all(&run);
+  progress_end(&run.progress);
+  report->traced += run.traced;
+  if (report->depth < run.depth) report->depth = (int)run.depth;
+  free(run.processes);
+  free(run.order);
+  free(run.ready);
+  free(run.rgb);
+  return result;
+}

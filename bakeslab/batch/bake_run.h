@@ -1,0 +1,29 @@
+/* bake_run.h - renders the batches of a round by several POV-Ray processes. */
+#ifndef BAKE_RUN_H
+#define BAKE_RUN_H
+
+#include "bake/bake.h"
+#include "base/progress.h"
+#include "batch/bake_store.h"
+#include "batch/bake_sum.h"
+
+/* All that a round needs besides itself; nothing is owned. */
+struct bake_work {
+  const struct bake_options *options;
+  const struct povray *povray;
+  const struct lamp_source *source;
+  const struct lamp *lamp;
+  const struct bake_store *store;
+  const struct slab *slabs; /* lamp->slab_count of them */
+  struct bake_look look;
+  const volatile sig_atomic_t *stop;
+};
+
+/* Renders what the store lacks of a round. With a sum, all of it (this shard's batches
+ * first), added to the sum in order; without, this shard's batches alone. On an error or
+ * a stop all processes end and their scratch folders go; finished batches stay. */
+enum result bake_run(const struct bake_work *work, const struct bake_round *round,
+                     struct bake_sum *sum, const char *label, struct bake_report *report,
+                     struct error *error);
+
+#endif

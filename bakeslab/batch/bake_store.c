@@ -1,0 +1,173 @@
+/* bake_store.c - see bake_store.h. */
+#include "batch/bake_store.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include "base/files.h"
+
+static const char scratch_mark[] = "scratch.", lock_name[] = "lock";
+
+/* Names that this file gives: keys, scratch folders, the lock. */
+static bool is_ours(const char *name) {
+  return !strcmp(name, lock_name) || !strncmp(name, scratch_mark, strlen(scratch_mark)) ||
+         (strlen(name) == 32 && strspn(name, "0123456789abcdef") == 32);
+}
+
+/* Removes what begins so: all of ours but the lock, or the scratch folders of processes that
+ * were killed (nobody else holds the store then). */
+static void sweep(const char *directory, const char *beginning) {
+  DIR *list = opendir(directory);
+  if (!list) return;
+  for (struct dirent *entry; (entry = readdir(list));) {
+    if (!is_ours(entry->d_name) || strncmp(entry->d_name, beginning, strlen(beginning)) != 0)
+      continue;
+    if (!strcmp(entry->d_name, lock_name)) continue;
+    char *path = files_join(directory, entry->d_name);
+    if (path) files_remove_tree(path);
+    free(path);
+  }
+  closedir(list);
+}
+
+/* Whether the lock that we hold is still the one in the folder: who held it before us may have
+ * removed both when it was done, and somebody else made new ones. */
+static bool is_current(int lock, const char *path) {
+  struct stat held, there;
+  return fstat(lock, &held) == 0 && stat(path, &there) == 0 && held.st_ino == there.st_ino &&
+         held.st_dev == there.st_dev;
+}
+
+/* Opens and locks the file once; store->lock is -1 where it has to be tried again. */
+static enum result try_lock(const char *path, bool shared, struct bake_store *store,
+                            struct error *error) {
+  enum result result = files_make_directory(store->directory, error);
+  if (result) return result;
+  store->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (store->lock < 0) /* the folder may just have gone */
+    return errno == ENOENT ? RESULT_OK
+                           : result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
+  if (flock(store->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) {
+    if (is_current(store->lock, path)) return RESULT_OK;
+  } else if (errno == EWOULDBLOCK) {
+    result =
+        result_fail(error, RESULT_IO, "%s: another bake of this output is at work; wait for it",
+                    store->directory);
+  } else {
+    result = result_fail(error, RESULT_IO, "%s: cannot be locked: %s; bake on another file system",
+                         path, strerror(errno));
+  }
+  close(store->lock); /* the store is another's: closing it here removes nothing */
+  store->lock = -1;
+  return result;
+}
+
+enum result bake_store_open(const char *output, bool shared, struct bake_store *store,
+                            struct error *error) {
+  enum { MOST_TRIES = 1000 };
+  *store = (struct bake_store){.lock = -1};
+  if (asprintf(&store->directory, "%s.partial", output) < 0) {
+    store->directory = NULL;
+    return result_fail(error, RESULT_MEMORY, "out of memory");
+  }
+  char *path = files_join(store->directory, lock_name);
+  if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result = RESULT_OK;
+  for (int tries = 0; !result && store->lock < 0; ++tries)
+    result = tries < MOST_TRIES
+                 ? try_lock(path, shared, store, error)
+                 : result_fail(error, RESULT_IO, "%s: others keep removing it", path);
+  free(path);
+  if (!result && !shared) sweep(store->directory, scratch_mark);
+  return result;
+}
+
+/* Whether there is anything but the lock. */
+static bool is_empty(const char *directory) {
+  DIR *list = opendir(directory);
+  bool empty = true;
+  for (struct dirent *entry; list && (entry = readdir(list));)
+    empty &= entry->d_name[0] == '.' || !strcmp(entry->d_name, lock_name);
+  if (list) closedir(list);
+  return empty;
+}
+
+void bake_store_close(struct bake_store *store, bool finished) {
+  /* A store that others share stays; alone with it, nothing of ours does. */
+  bool alone = store->lock >= 0 && flock(store->lock, LOCK_EX | LOCK_NB) == 0;
+  if (alone && (finished || is_empty(store->directory))) {
+    char *lock = files_join(store->directory, lock_name);
+    sweep(store->directory, "");
+    /* Last: without it, the next one takes the store for its own. */
+    if (lock) unlink(lock);
+    rmdir(store->directory); /* stays where somebody put something else into it */
+    free(lock);
+  }
+  if (store->lock >= 0) close(store->lock);
+  free(store->directory);
+  *store = (struct bake_store){.lock = -1};
+}
+
+void bake_store_key(char key[33], ...) {
+  XXH3_state_t *state = XXH3_createState();
+  XXH3_128bits_reset(state);
+  va_list texts;
+  va_start(texts, key);
+  for (const char *text; (text = va_arg(texts, const char *));)
+    XXH3_128bits_update(state, text, strlen(text) + 1);
+  va_end(texts);
+  XXH128_hash_t hash = XXH3_128bits_digest(state);
+  XXH3_freeState(state);
+  snprintf(key, 33, "%016llx%016llx", (unsigned long long)hash.high64,
+           (unsigned long long)hash.low64);
+}
+
+char *bake_store_path(const struct bake_store *store, const char *key) {
+  return files_join(store->directory, key);
+}
+
+enum result bake_store_scratch(const struct bake_store *store, char **scratch,
+                               struct error *error) {
+  /* Not by process number: machines and containers that share the folder have the same. */
+  if (asprintf(scratch, "%s/%sXXXXXX", store->directory, scratch_mark) < 0) {
+    *scratch = NULL;
+    return result_fail(error, RESULT_MEMORY, "out of memory");
+  }
+  if (mkdtemp(*scratch)) return RESULT_OK;
+  enum result result =
+      result_fail(error, RESULT_IO, "%s: cannot make this folder: %s", *scratch, strerror(errno));
+  free(*scratch);
+  *scratch = NULL;
+  return result;
+}
+
+bool bake_store_has(const struct bake_store *store, const char *key) {
+  char *path = bake_store_path(store, key);
+  bool has = path && access(path, F_OK) == 0;
+  free(path);
+  return has;
+}
+
+enum result bake_store_commit(const struct bake_store *store, const char *scratch, const char *key,
+                              struct error *error) {
+  char *path = bake_store_path(store, key);
+  if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result = RESULT_OK;
+  if (rename(scratch, path) != 0) {
+    int reason = errno;
+    files_remove_tree(scratch);
+    if (reason != ENOTEMPTY && reason != EEXIST)
+      result = result_fail(error, RESULT_IO, "%s: %s", path, strerror(reason));
+  }
+  free(path);
+  return result;
+}

@@ -1,0 +1,93 @@
+/* cli.h - what the programs' commands share: how they are called, what they
+ * say and how they fail. Code that does the work never calls this.
+ *
+ * A program is a cli_program, a table of commands, and a main() that returns
+ * cli_main(). A command is `int cmd_NAME(int argc, char **argv)`. It parses its
+ * arguments by argp with cli_options among the children, and returns the exit
+ * status: 0 done, 1 failed, 2 usage (a comparing command: 0 same, 1 differ,
+ * 2 trouble). Data goes to stdout, talk to stderr; an error is one line. */
+#ifndef CLI_H
+#define CLI_H
+
+#include <argp.h>
+#include <stdbool.h>
+
+#include "base/result.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Of both programs; provenance names "bakeslab " CANNED_VERSION as the tool. */
+#define CANNED_VERSION "0.1.0"
+
+enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
+
+struct cli_command {
+  const char *name;
+  int (*run)(int argc, char **argv);
+  const char *help; /* one line */
+};
+
+struct cli_program {
+  const char *name;
+  const char *summary;                /* one sentence */
+  const struct cli_command *commands; /* up to one without a name */
+  const char *examples;               /* lines, indented by two blanks; NULL: none */
+  const char *exit_status;            /* what the statuses mean, one line */
+  const char *compares;               /* the command that fails with 2, not 1; NULL: none */
+};
+
+/* Expands @FILE arguments (arguments.h), then runs the command that argv[1] names,
+ * or answers --help, --version, help and help COMMAND. Returns the exit status. A stdout
+ * that cannot be written makes it 1 in any case. */
+int cli_main(const struct cli_program *program, int argc, char **argv);
+
+/* "PROGRAM: MESSAGE" on stderr, as one line. */
+void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* The same, unless -q was given: "FILE: note: ...". */
+void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints the error and returns CLI_FAILED. */
+int cli_fail(const struct error *error);
+
+/* Parses "NxM" (or "N" for NxN), both at least 1 and at most 65536. */
+bool cli_parse_size(const char *text, int size[2]);
+
+/* For the `children` of every command's argp: the option -q, and that argp_error() and
+ * unknown options make one line and exit status 2. argp_usage() would print many lines:
+ * say by argp_error() what is missing. */
+extern const struct argp_child cli_options[];
+
+/* argp_parse with a command's arguments; ends the program where it has no memory. */
+void cli_parse(const struct argp *argp, int argc, char **argv, void *input);
+
+/* Where there is no memory to keep an argument: says so and ends the program as failed. */
+void cli_out_of_memory(void) __attribute__((noreturn));
+
+/* Whether -q was given: no notes and no progress. */
+bool cli_quiet(void);
+
+/* The command line that is running, quoted for a shell, with the program's name in front
+ * and @FILE arguments expanded; outputs record it. Lives as long as the program. */
+const char *cli_command_line(void);
+/* Sets that and the name in messages; false without memory. cli_main calls it; argv[0] is not
+ * looked at. */
+bool cli_set_command_line(const char *program, int argc, char **argv);
+
+/* A word, quoted for a shell where it must be; to be freed. NULL without memory. */
+char *cli_quote(const char *word);
+
+/* Flushes stdout and says whether all that was printed got there: a full disk
+ * or a closed pipe is an error. Returns an exit status. */
+int cli_close_stdout(void);
+
+/* For atexit: does the same for those who did not (argp's --help), and makes
+ * the exit status 1 where it fails. */
+void cli_check_stdout_at_exit(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,360 @@
+/* cmd_bake.c - bakeslab bake: a lamp script becomes a light slab. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "bake/bake.h"
+#include "cmd/slab_options.h"
+
+static volatile sig_atomic_t stop;
+
+static void on_signal(int number) {
+  (void)number;
+  stop = 1;
+}
+
+enum {
+  OPTION_UV = 256,
+  OPTION_ST,
+  OPTION_RAYS,
+  OPTION_RAYS_MAX,
+  OPTION_CENTRE,
+  OPTION_UNIFORM,
+  OPTION_EFFECTS,
+  OPTION_THRESHOLD,
+  OPTION_WINDOW,
+  OPTION_TOLERANCE,
+  OPTION_DISTANCE,
+  OPTION_SHARD,
+  OPTION_PRECISION,
+  OPTION_GAIN,
+  OPTION_CAMERA,
+  OPTION_POVRAY,
+  OPTION_SANDBOX,
+  OPTION_DEPEND
+};
+
+static const struct argp_option options[] = {
+    {0, 'o', "SLAB", 0, "the slab to write: .tif (LogLuv unless --precision says else) or .exr", 1},
+    {"uv", OPTION_UV, "NxM", 0, "positions on the aperture (default 16x16)", 1},
+    {"st", OPTION_ST, "NxM", 0, "directions a position (default 64x64)", 1},
+    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "of the samples in the file", 1},
+    {"rays", OPTION_RAYS, "K", 0,
+     "rays a sample, on average: 1 or an even number (default 16). A sample is the mean over "
+     "its 4D cell; 4 rays are shot everywhere, the rest where those were noisy",
+     2},
+    {"rays-max", OPTION_RAYS_MAX, "K", 0, "rays for the noisiest samples (default 4 x --rays)", 2},
+    {"uniform", OPTION_UNIFORM, 0, 0, "the same rays for all samples, as many everywhere", 2},
+    {"centre", OPTION_CENTRE, 0, 0,
+     "one ray through each sample's centre, the plain algorithm: fast, but fine parts of a lamp "
+     "alias",
+     2},
+    {"effects", OPTION_EFFECTS, "auto|probe|all|none|LIST", 0,
+     "interreflection, caustics, extended_source, deep_trace (default auto: what the lamp's "
+     "Canned_Needs says, else probe: those that small bakes show to matter). A word may say how "
+     "far: interreflection=4 bounces, caustics=100000 photons, extended_source=9 lights a side, "
+     "deep_trace=60 levels",
+     3},
+    {"effect-threshold", OPTION_THRESHOLD, "X", 0,
+     "an effect matters if it changes the flux by more than this part of it, or samples by "
+     "twice that in RMS (default 0.01)",
+     3},
+    {"window", OPTION_WINDOW, "declared|auto", 0,
+     "auto: the st windows are fitted to the light, within what the script declares", 3},
+    {"tolerance", OPTION_TOLERANCE, "T", 0,
+     "find the fewest samples by which irradiance is right to T (relative RMS), at "
+     "--for-distance and beyond; an explicit --uv or --st stays",
+     3},
+    {"for-distance", OPTION_DISTANCE, "D", 0,
+     "of the nearest thing that is lit, in lamp units (default 4 apertures, --tolerance 0.01): "
+     "the st plane is put there where that needs fewer samples",
+     3},
+    {"gain", OPTION_GAIN, "2^N", 0,
+     "brightness at which POV-Ray renders, undone in the slab; its pictures hold radiance up "
+     "to 65504 (default: from a probe)",
+     3},
+    {"camera", OPTION_CAMERA, "mesh|perspective|transposed", 0,
+     "how POV-Ray is asked: many views an image, one view a frame, one direction a frame "
+     "(default: the cheapest)",
+     3},
+    {"jobs", 'j', "N", 0, "POV-Ray processes rendering at a time (default: one a processor)", 4},
+    {"shard", OPTION_SHARD, "K/N", 0,
+     "bake the K-th of N parts (from 1) of the batches into SLAB.partial and stop there; the "
+     "run without --shard bakes what is missing and assembles the slab",
+     4},
+    {"povray", OPTION_POVRAY, "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
+    {"sandbox", OPTION_SANDBOX, 0, 0,
+     "run POV-Ray in a sandbox (bubblewrap): it can read files, but write only to its working "
+     "folder, and has no network",
+     4},
+    {"depend", OPTION_DEPEND, "FILE", 0,
+     "write a rule for make there: SLAB depends on every file that the script reads (as gcc's "
+     "-MD -MF FILE -MP)",
+     4},
+    {0, 'L', "FOLDER", 0, "where the script finds more files; may be repeated", 4},
+    {0}};
+
+static const char usage[] = "LAMP.pov -o SLAB";
+static const char doc[] =
+    "Renders a lamp script with POV-Ray into a light slab.\v"
+    "The script declares its slabs with the macros of canned.inc, which bakeslab finds by itself. "
+    "Finished batches are kept in SLAB.partial until the slab is written: after Ctrl-C, a crash "
+    "or a full disk the same command goes on from them.\n"
+    "\n"
+    "The samples are the same, bit for bit, for any --jobs and --shard. They are the same for "
+    "any --camera too with --uniform or --centre; otherwise each view (or, transposed, each "
+    "direction) shifts its rays for itself, so that mesh and perspective agree. With "
+    "interreflection each batch gathers light for itself, and --camera lays out other batches.\n"
+    "\n"
+    "A lamp script is a program: POV-Ray runs it with your rights. With --sandbox it can still "
+    "read all that you can, but change nothing and tell nobody.\n"
+    "\n"
+    "Examples:\n"
+    "  bakeslab bake parabolic.pov -o parabolic.tif\n"
+    "  bakeslab bake lamp.pov -o draft.tif --uv 8 --st 32 --rays 4 --effects none\n"
+    "  bakeslab bake lamp.pov -o fine.tif --st 128 --rays 64 --jobs 8\n"
+    "  bakeslab bake lamp.pov -o lamp.tif --effects probe --window auto --tolerance 0.02\n"
+    "  for k in 1 2 3 4; do bakeslab bake lamp.pov -o big.tif --shard $k/4 & done\n"
+    "  wait; bakeslab bake lamp.pov -o big.tif\n";
+
+struct arguments {
+  struct bake_options bake;
+  const char *libraries[LAMP_MAX_LIBRARIES + 1];
+  int library_count;
+};
+
+static int parse_number(struct argp_state *state, const char *option, const char *text, int least,
+                        int most) {
+  char *end;
+  long value = strtol(text, &end, 10);
+  if (end == text || *end || value < least || value > most)
+    argp_error(state, "%s %s: not a whole number from %d to %d", option, text, least, most);
+  return (int)value;
+}
+
+static int parse_word(struct argp_state *state, const char *option, const char *text,
+                      const char *const *words) {
+  for (int n = 0; words[n]; ++n)
+    if (!strcmp(text, words[n])) return n;
+  argp_error(state, "%s %s: see --help for what it may be", option, text);
+  return -1;
+}
+
+static void parse_shard(struct argp_state *state, const char *text, struct bake_options *bake) {
+  int k, n, used = 0;
+  if (sscanf(text, "%d/%d%n", &k, &n, &used) != 2 || text[used] || n < 1 || k < 1 || k > n)
+    argp_error(state, "--shard %s: not a part such as 1/4", text);
+  bake->shard = k - 1;
+  bake->shards = n;
+}
+
+static double parse_gain(struct argp_state *state, const char *text) {
+  const char *number = strncmp(text, "2^", 2) ? text : text + 2;
+  char *end;
+  int exponent;
+  double gain = strtod(number, &end);
+  if (number != text) gain = exp2(gain);
+  if (*end || end == number || !(gain >= 0x1p-100 && gain <= 0x1p100) ||
+      frexp(gain, &exponent) != 0.5)
+    argp_error(state, "--gain %s: not a power of two such as 2^-8 or 0.125", text);
+  return gain;
+}
+
+/* Options that leave the choice to small bakes. */
+static error_t parse_choices(int key, char *text, struct argp_state *state,
+                             struct bake_options *bake) {
+  static const char *const windows[] = {"declared", "auto", NULL};
+  switch (key) {
+  case OPTION_EFFECTS:
+    bake->effects = text;
+    return 0;
+  case OPTION_THRESHOLD:
+    bake->effect_threshold = cli_parse_positive(state, "--effect-threshold", text);
+    return 0;
+  case OPTION_WINDOW:
+    bake->window_auto = parse_word(state, "--window", text, windows) == 1;
+    return 0;
+  case OPTION_TOLERANCE:
+    bake->tolerance = cli_parse_positive(state, "--tolerance", text);
+    return 0;
+  case OPTION_DISTANCE:
+    bake->for_distance = cli_parse_positive(state, "--for-distance", text);
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* Options that say what to bake. */
+static error_t parse_samples(int key, char *text, struct argp_state *state,
+                             struct bake_options *bake) {
+  switch (key) {
+  case OPTION_UV:
+    cli_parse_samples(state, "--uv", text, bake->uv);
+    return 0;
+  case OPTION_ST:
+    cli_parse_samples(state, "--st", text, bake->st);
+    return 0;
+  case OPTION_PRECISION:
+    if (!cli_parse_precision(text, &bake->precision))
+      argp_error(state, "--precision %s: is none of logluv, float, half", text);
+    return 0;
+  case OPTION_RAYS:
+    bake->rays = parse_number(state, "--rays", text, 1, 4096);
+    return 0;
+  case OPTION_RAYS_MAX:
+    bake->rays_max = parse_number(state, "--rays-max", text, 1, 65536);
+    return 0;
+  case OPTION_UNIFORM:
+    bake->uniform = true;
+    return 0;
+  case OPTION_CENTRE:
+    bake->centre = true;
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* Options that say how. */
+static error_t parse_means(int key, char *text, struct argp_state *state,
+                           struct bake_options *bake) {
+  static const char *const cameras[] = {"mesh", "perspective", "transposed", NULL};
+  switch (key) {
+  case OPTION_GAIN:
+    bake->gain = parse_gain(state, text);
+    return 0;
+  case OPTION_CAMERA:
+    bake->form = parse_word(state, "--camera", text, cameras);
+    return 0;
+  case 'j':
+    bake->jobs = parse_number(state, "--jobs", text, 1, 1024);
+    return 0;
+  case OPTION_SHARD:
+    parse_shard(state, text, bake);
+    return 0;
+  case OPTION_POVRAY:
+    bake->povray = text;
+    return 0;
+  case OPTION_SANDBOX:
+    bake->sandbox = true;
+    return 0;
+  case OPTION_DEPEND:
+    bake->depend = text;
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static error_t parse_option(int key, char *text, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  struct bake_options *bake = &arguments->bake;
+  switch (key) {
+  case 'o':
+    bake->output = text;
+    return 0;
+  case 'L':
+    if (arguments->library_count == LAMP_MAX_LIBRARIES) argp_error(state, "too many -L");
+    arguments->libraries[arguments->library_count++] = text;
+    return 0;
+  case ARGP_KEY_ARG:
+    if (bake->lamp) argp_error(state, "%s: one lamp script at a time", text);
+    bake->lamp = text;
+    return 0;
+  case ARGP_KEY_END:
+    if (!bake->lamp) argp_error(state, "give a lamp script");
+    if (!bake->output) argp_error(state, "give -o SLAB");
+    return 0;
+  default:
+    if (parse_samples(key, text, state, bake) == 0 || parse_choices(key, text, state, bake) == 0)
+      return 0;
+    return parse_means(key, text, state, bake);
+  }
+}
+
+/* What only the options together can tell. */
+static bool check_rays(struct bake_options *bake) {
+  if (bake->centre && bake->rays == 0) bake->rays = 1;
+  if (bake->rays == 0) bake->rays = 16;
+  if (bake->centre && bake->rays != 1) {
+    cli_complain("--centre: shoots one ray a sample; leave --rays out");
+    return false;
+  }
+  if (bake->rays > 1 && bake->rays % 2) {
+    cli_complain("--rays %d: not 1 or an even number (rays come in pairs)", bake->rays);
+    return false;
+  }
+  if (bake->rays_max == 0) bake->rays_max = 4 * bake->rays;
+  if (bake->rays_max < bake->rays || bake->rays_max % 2 > bake->rays % 2) {
+    cli_complain("--rays-max %d: not an even number that is at least --rays (%d)", bake->rays_max,
+                 bake->rays);
+    return false;
+  }
+  return true;
+}
+
+/* A tolerance finds what neither --uv nor --st fixes. */
+static void set_sizes(struct bake_options *bake) {
+  if (bake->for_distance > 0 && bake->tolerance == 0) bake->tolerance = 0.01;
+  bake->uv_free = bake->uv[0] == 0;
+  bake->st_free = bake->st[0] == 0;
+  for (int k = 0; k < 2; ++k) {
+    if (bake->uv_free) bake->uv[k] = 16;
+    if (bake->st_free) bake->st[k] = 64;
+  }
+}
+
+static void report_done(const struct bake_options *bake, const struct bake_report *report) {
+  if (report->housing_left_out)
+    cli_complain("%s: note: Canned_Housing is left out of the slab, since it does not parse with "
+                 "only the numbers declared before it; write it without includes and macros",
+                 bake->lamp);
+  if (report->cut_off[0])
+    cli_note("%s: note: light goes on beyond the st window (%s); enlarge it in Canned_Slab",
+             bake->lamp, report->cut_off);
+  if (report->assembled && bake->tolerance > 0)
+    cli_note("%s: note: the slab's own error is about %.2g (tolerance %g)", bake->output,
+             report->error, bake->tolerance);
+  if (bake->quiet) return;
+  if (report->probe_cpu > 0)
+    fprintf(stderr, "%s: small bakes before it took %.1f CPU s\n", bake->output, report->probe_cpu);
+  if (report->assembled)
+    fprintf(stderr, "%s: %d batches, %d of them found finished; %.3g rays, %.1f CPU s of POV-Ray\n",
+            bake->output, report->batches, report->found, report->rays, report->cpu);
+  else
+    fprintf(stderr, "%s: shard %d/%d is done; the run without --shard assembles the slab\n",
+            bake->output, bake->shard + 1, bake->shards);
+}
+
+int cmd_bake(int argc, char **argv) {
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  struct arguments arguments = {.bake = {.povray = "povray",
+                                         .effects = "auto",
+                                         .effect_threshold = 0.01,
+                                         .form = -1,
+                                         .jobs = processors > 0 ? (int)processors : 1,
+                                         .shards = 1,
+                                         .command = cli_command_line()}};
+  struct bake_options *bake_options = &arguments.bake;
+  static const struct argp argp = {options, parse_option, usage, doc, cli_options, NULL, NULL};
+  cli_parse(&argp, argc, argv, &arguments);
+  bake_options->libraries = arguments.libraries;
+  bake_options->quiet = cli_quiet();
+  if (!check_rays(bake_options)) return CLI_USAGE;
+  set_sizes(bake_options);
+  struct sigaction action = {.sa_handler = on_signal};
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+  struct sigaction hangup;
+  sigaction(SIGHUP, NULL, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup stays in force */
+  struct error error = {""};
+  struct bake_report report;
+  if (bake(bake_options, &stop, &report, &error)) return cli_fail(&error);
+  report_done(bake_options, &report);
+  return CLI_OK;
+}

@@ -1,0 +1,140 @@
+/* cmd_diff.c - bakeslab diff: compares the samples and the frames of two
+ * slabs. Exit status 0: same within the tolerance, 1: they differ, 2: trouble. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cmd/slab_options.h"
+#include "file/slab_file.h"
+
+enum { SAME = 0, DIFFER = 1, TROUBLE = 2 };
+
+struct options {
+  const char *paths[2];
+  double tolerance; /* of the largest difference, relative to the peak */
+};
+
+static error_t parse(int key, char *argument, struct argp_state *state) {
+  struct options *options = state->input;
+  char *end;
+  switch (key) {
+  case 't':
+    options->tolerance = strtod(argument, &end);
+    if (end == argument || *end || !(options->tolerance >= 0))
+      argp_error(state, "--tolerance %s: must be a number, at least 0", argument);
+    return 0;
+  case ARGP_KEY_ARG:
+    if (state->arg_num >= 2) argp_error(state, "%s: two slabs at a time", argument);
+    options->paths[state->arg_num] = argument;
+    return 0;
+  case ARGP_KEY_END:
+    if (state->arg_num < 2) argp_error(state, "give two slabs");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* What two pages differ in that makes their samples incomparable, or NULL. */
+static const char *different_frame(const struct slab *a, const struct slab *b) {
+  double scale =
+      slab_spacing(a, SLAB_U) * a->samples[SLAB_U] + slab_spacing(a, SLAB_V) * a->samples[SLAB_V];
+  double opening =
+      fabs(a->st_window[1] - a->st_window[0]) + fabs(a->st_window[3] - a->st_window[2]);
+  const double rounding = 1e-9; /* of positions, relative to the aperture */
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    if (a->samples[axis] != b->samples[axis]) return "samples";
+  for (int c = 0; c < 3; ++c) {
+    if (fabs(a->center[c] - b->center[c]) > rounding * scale) return "center";
+    if (fabs(a->u[c] - b->u[c]) > rounding * scale) return "u";
+    if (fabs(a->v[c] - b->v[c]) > rounding * scale) return "v";
+    if (fabs(a->normal[c] - b->normal[c]) > rounding) return "normal";
+  }
+  for (int k = 0; k < 4; ++k)
+    if (fabs(a->st_window[k] - b->st_window[k]) > rounding * opening) return "st_window";
+  if (fabs(slab_kappa(a) - slab_kappa(b)) * scale > rounding * opening) return "st_distance";
+  return NULL;
+}
+
+/* Prints the page's figures and says whether the samples differ. */
+static int compare_samples(int page, const struct slab *a, const struct slab *b, double tolerance) {
+  size_t count = 3 * slab_sample_count(a), worst = 0;
+  double peak = 0, largest = 0, squares = 0, flux_a[3], flux_b[3];
+  for (size_t k = 0; k < count; ++k) {
+    double x = (double)a->rgb[k], y = (double)b->rgb[k], difference = fabs(x - y);
+    peak = fmax(peak, fmax(fabs(x), fabs(y)));
+    squares += difference * difference;
+    if (difference > largest) {
+      largest = difference;
+      worst = k / 3;
+    }
+  }
+  double rmse = sqrt(squares / (double)count), scale = peak > 0 ? peak : 1;
+  int at[SLAB_AXES];
+  slab_locate(a, worst, at);
+  if (slab_flux_metric(a, flux_a) || slab_flux_metric(b, flux_b)) {
+    cli_complain("out of memory");
+    return TROUBLE;
+  }
+  printf("page %d: rmse %.6g (%.3g of the peak %.6g), largest %.6g (%.3g of the peak) at sample "
+         "(%d, %d, %d, %d)\n",
+         page + 1, rmse, rmse / scale, peak, largest, largest / scale, at[SLAB_U], at[SLAB_V],
+         at[SLAB_S], at[SLAB_T]);
+  printf("page %d: flux %.6g %.6g %.6g and %.6g %.6g %.6g\n", page + 1, flux_a[0], flux_a[1],
+         flux_a[2], flux_b[0], flux_b[1], flux_b[2]);
+  return largest > tolerance * peak ? DIFFER : SAME;
+}
+
+static int compare(const struct options *options) {
+  struct slab *slabs[2] = {NULL, NULL};
+  int count[2] = {0, 0}, status = TROUBLE;
+  struct error error = {{0}};
+  for (int k = 0; k < 2; ++k)
+    if (slab_file_load_all(options->paths[k], &slabs[k], &count[k], &error) != RESULT_OK) {
+      cli_fail(&error);
+      goto out;
+    }
+  status = SAME;
+  if (count[0] != count[1]) {
+    printf("pages: %d and %d\n", count[0], count[1]);
+    status = DIFFER;
+    goto out;
+  }
+  for (int page = 0; page < count[0]; ++page) {
+    const char *what = different_frame(&slabs[0][page], &slabs[1][page]);
+    if (what) printf("page %d: \"%s\" differs\n", page + 1, what);
+    int found =
+        what ? DIFFER : compare_samples(page, &slabs[0][page], &slabs[1][page], options->tolerance);
+    if (found > status) status = found;
+    if (found == TROUBLE) break;
+  }
+out:
+  for (int k = 0; k < 2; ++k) slab_file_free_all(slabs[k], count[k]);
+  return status;
+}
+
+int cmd_diff(int argc, char **argv) {
+  static const struct argp_option option[] = {
+      {"tolerance", 't', "T", 0,
+       "Largest difference of a sample that still counts as same, relative to the page's peak "
+       "(default 0)",
+       0},
+      {0}};
+  static const struct argp argp = {
+      .options = option,
+      .parser = parse,
+      .children = cli_options,
+      .args_doc = "A B",
+      .doc = "Compares two light slabs page by page: RMSE, largest difference, flux (as bakeslab "
+             "info tells it). Slabs with other frames or numbers of samples differ; "
+             "bakeslab convert brings them together."
+             "\vExit status: 0 same, 1 they differ, 2 trouble.\n"
+             "\n"
+             "Examples:\n"
+             "  bakeslab diff before.tif after.tif\n"
+             "  bakeslab diff --tolerance 0.022 float.exr logluv.tif"};
+  struct options options = {0};
+  cli_parse(&argp, argc, argv, &options);
+  int status = compare(&options);
+  return cli_close_stdout() == CLI_OK ? status : TROUBLE;
+}

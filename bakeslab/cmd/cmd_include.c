@@ -1,0 +1,315 @@
+/* cmd_include.c - bakeslab include: a slab as an include that lights any
+ * POV-Ray scene. */
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/name.h"
+#include "base/output.h"
+#include "cmd/slab_options.h"
+#include "file/slab_exr.h"
+#include "file/slab_file.h"
+#include "file/slab_json.h"
+#include "include/cluster/cluster_text.h"
+#include "include/include_choose.h"
+#include "lamp/housing.h"
+
+static const char help_text[] =
+    "Writes LAMP.inc, an include file for stock POV-Ray 3.7, and beside it the image LAMP.exr "
+    "that it reads, which light any scene with the slab. A cluster needs no image."
+    "\v"
+    "In a scene:\n"
+    "\n"
+    "  #include \"desk_lamp.inc\"\n"
+    "  object { Desk_Lamp_Canned(1, 1) rotate x*30 translate <0, 2, 0> }\n"
+    "\n"
+    "The macro is called after the slab; Scale and Gain are its arguments. The header of the "
+    "include tells what else may be set, and the error of each number of lights.\n"
+    "\n"
+    "Modes:\n"
+    "  sheet    a point light on each uv sample, and an image that filters each ray: exact\n"
+    "  cluster  a few area lights fitted to the slab: faster, no image\n"
+    "  point    the far field: one light, and an image\n"
+    "  auto     the one of them, with as few lights, that is cheapest for POV-Ray within the "
+    "tolerance\n"
+    "Errors are relative RMS differences of the irradiance on planes at the distance, and "
+    "distances in widths of the aperture (its longer edge).\n"
+    "\n"
+    "Examples:\n"
+    "  bakeslab include desk_lamp.tif -o desk_lamp.inc\n"
+    "  bakeslab include desk_lamp.tif -o small.inc --lights 4\n"
+    "  bakeslab include desk_lamp.tif -o fast.inc --mode cluster --lights 16\n"
+    "  bakeslab include desk_lamp.tif -o fast.inc --mode cluster --tolerance 0.05 --distance 4\n"
+    "  bakeslab include street_lamp.tif -o far.inc --mode auto --tolerance 0.02 --distance 40\n"
+    "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light";
+
+enum { DEFAULT_CLUSTER = 16 };
+static const double default_distance = 4, least_distance = 0.01, most_distance = 1e6;
+
+struct arguments {
+  const char *slab;
+  const char *output;
+  const char *name;
+  int modes; /* that may be made; 0: the default */
+  int lights;
+  double tolerance, distance; /* 0: not given */
+};
+
+enum { KEY_TOLERANCE = 256, KEY_DISTANCE };
+
+static const struct argp_option options[] = {
+    {"output", 'o', "LAMP.inc", 0, "the include to write; its image gets the ending .exr", 0},
+    {"mode", 'm', "MODE", 0, "kind of light: sheet (exact; the default), cluster, point or auto",
+     0},
+    {"lights", 'l', "N", 0,
+     "sheet: at most N lights an axis (default: one on each uv sample); cluster: at most N lights "
+     "in all, up to 64 a page (default 16)",
+     0},
+    {"tolerance", KEY_TOLERANCE, "T", 0, "as few lights as are at most T off (0.05 is 5 %)", 0},
+    {"distance", KEY_DISTANCE, "D", 0, "where T holds, in aperture widths (default 4)", 0},
+    {"name", 'n', "NAME", 0, "call the lamp NAME rather than what the slab says", 0},
+    {0}};
+
+static const struct {
+  const char *name;
+  int modes;
+} mode_names[] = {{"sheet", INCLUDE_SHEET},
+                  {"cluster", INCLUDE_CLUSTER},
+                  {"point", INCLUDE_POINT},
+                  {"auto", INCLUDE_ANY}};
+
+static int parse_mode(const char *value, struct argp_state *state) {
+  for (size_t k = 0; k < sizeof mode_names / sizeof *mode_names; ++k)
+    if (!strcmp(value, mode_names[k].name)) return mode_names[k].modes;
+  argp_error(state, "--mode %s: must be sheet, cluster, point or auto", value);
+  return 0;
+}
+
+/* Options that contradict each other. */
+static void check_arguments(const struct arguments *arguments, struct argp_state *state) {
+  if (!arguments->output) argp_error(state, "no output given; add -o LAMP.inc");
+  if (arguments->lights > 0 && arguments->tolerance > 0)
+    argp_error(state, "--lights and --tolerance: give one of them");
+  if (arguments->modes == INCLUDE_ANY && !(arguments->tolerance > 0))
+    argp_error(state, "--mode auto: needs --tolerance T, and --distance D if not 4");
+  if (arguments->lights > 0 && arguments->modes & INCLUDE_POINT)
+    argp_error(state, "--lights: the far field is one light; leave it out");
+}
+
+static error_t parse_option(int key, char *value, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  int size[2];
+  switch (key) {
+  case 'o':
+    arguments->output = value;
+    return 0;
+  case 'm':
+    arguments->modes = parse_mode(value, state);
+    return 0;
+  case 'l':
+    if (!cli_parse_size(value, size) || size[0] != size[1])
+      argp_error(state, "--lights %s: must be a whole number from 1 to 65536", value);
+    arguments->lights = size[0];
+    return 0;
+  case KEY_TOLERANCE:
+    arguments->tolerance = cli_parse_positive(state, "--tolerance", value);
+    return 0;
+  case KEY_DISTANCE:
+    arguments->distance = cli_parse_positive(state, "--distance", value);
+    if (arguments->distance < least_distance || arguments->distance > most_distance)
+      argp_error(state, "--distance %s: must be from %g to %g aperture widths", value,
+                 least_distance, most_distance);
+    return 0;
+  case 'n':
+    arguments->name = value;
+    return 0;
+  case ARGP_KEY_SUCCESS:
+    check_arguments(arguments, state);
+    return 0;
+  default:
+    return cli_parse_slab(key, value, state, &arguments->slab);
+  }
+}
+
+/* The lamp's name in POV-Ray: the slab's, unless --name gives another. */
+static enum result choose_name(const char *given, const struct slab *slab,
+                               char name[SDL_IDENTIFIER_SIZE], struct error *error) {
+  enum result result = sdl_capitalise(given ? given : slab->name, name, error);
+  if (result == RESULT_OK) return result;
+  struct error reason = *error;
+  return result_fail(error, result, "%s; give one with --name", reason.text);
+}
+
+static const char *base_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+/* "LAMP.exr" for "LAMP.inc", allocated; NULL without memory. */
+static char *image_path(const char *include) {
+  char *path = strdup(include);
+  if (path) memcpy(path + strlen(path) - 4, ".exr", 4);
+  return path;
+}
+
+/* Whether both paths lead, by whatever links, to one file that is there. */
+static int same_file(const char *path, const char *other) {
+  struct stat a, b;
+  if ((strcmp(path, "-") ? stat(path, &a) : fstat(STDIN_FILENO, &a)) != 0) return 0;
+  return stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/* The slab may be an EXR of the name that the image would get. */
+static enum result check_outputs(const char *slab, const char *include, const char *image,
+                                 struct error *error) {
+  const char *outputs[2] = {include, image};
+  for (int k = 0; k < 2; ++k)
+    if (same_file(slab, outputs[k]))
+      return result_fail(error, RESULT_BAD,
+                         "%s: is the slab itself and would be overwritten; choose another -o",
+                         outputs[k]);
+  if (same_file(include, image))
+    return result_fail(error, RESULT_BAD, "%s: is the same file as %s; choose another -o", image,
+                       include);
+  return RESULT_OK;
+}
+
+/* The image of the include; NULL where it has none. */
+static const struct picture *picture_of(const struct include_choice *choice) {
+  if (choice->mode == INCLUDE_CLUSTER) return NULL;
+  return choice->mode == INCLUDE_POINT ? &choice->point.picture : &choice->sheet.picture;
+}
+
+static void print_include(const struct include_choice *choice, const struct include_text *text,
+                          FILE *out) {
+  if (choice->mode == INCLUDE_CLUSTER)
+    cluster_print(&choice->cluster, text, out);
+  else if (choice->mode == INCLUDE_POINT)
+    point_print(&choice->point, text, out);
+  else
+    sheet_print(&choice->sheet, text, out);
+}
+
+static enum result compose(const struct include_choice *choice, const struct include_text *text,
+                           struct output *output, struct error *error) {
+  char *content = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&content, &size);
+  if (!stream) return result_fail(error, RESULT_MEMORY, "out of memory");
+  print_include(choice, text, stream);
+  enum result result = RESULT_OK;
+  if (fclose(stream) != 0 || !content) /* glibc's fclose may lose the text without a word */
+    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  else if (output_write(output, content, size, 0) != 0)
+    result = result_fail(error, RESULT_IO, "%s: cannot be written: %m", output->target);
+  free(content);
+  return result;
+}
+
+/* Both are on the disk before either gets its name: they belong together. */
+static enum result write_files(const struct include_choice *choice, const struct include_text *text,
+                               const char *include, const char *image, struct error *error) {
+  struct output outputs[2] = {{0}, {0}};
+  const struct picture *picture = picture_of(choice);
+  enum result result = output_begin(&outputs[0], include, error);
+  if (result == RESULT_OK) result = compose(choice, text, &outputs[0], error);
+  if (result == RESULT_OK) result = output_flush(&outputs[0], error);
+  if (result == RESULT_OK && picture) {
+    result = output_begin(&outputs[1], image, error);
+    if (result == RESULT_OK) result = slab_exr_put(&outputs[1], picture, 1, text->command, error);
+    if (result == RESULT_OK) result = output_commit(&outputs[1], error);
+  }
+  if (result == RESULT_OK) result = output_commit(&outputs[0], error);
+  for (int k = 0; k < 2; ++k) output_abandon(&outputs[k]);
+  return result;
+}
+
+/* Prefixes the message with the slab's path. */
+static enum result blame(const char *path, enum result result, struct error *error) {
+  if (result == RESULT_OK) return result;
+  struct error reason = *error;
+  return result_fail(error, result, "%s: %s", path, reason.text);
+}
+
+static enum result make_lights(const struct arguments *arguments, const struct slab *slabs,
+                               int count, struct include_choice *choice, struct error *error) {
+  int modes = arguments->modes ? arguments->modes : INCLUDE_SHEET, lights = arguments->lights;
+  double distance = arguments->distance > 0 ? arguments->distance : default_distance;
+  if (arguments->tolerance > 0)
+    return include_choose(slabs, count, modes, arguments->tolerance, distance, choice, error);
+  if (modes == INCLUDE_CLUSTER && !lights) lights = DEFAULT_CLUSTER;
+  return include_make(slabs, count, (enum include_mode)modes, lights, distance, choice, error);
+}
+
+/* Says what was chosen and what is left out, and writes. */
+static enum result write_include(const struct arguments *arguments, const struct slab *slab,
+                                 const char *name, const struct include_choice *choice,
+                                 const char *image, struct error *error) {
+  unsigned long lost = slab_json_lost();
+  char *housing = slab_json_get_string(slab, "provenance", "housing");
+  if (slab_json_lost() != lost) return result_fail(error, RESULT_MEMORY, "out of memory");
+  int harmless = housing && housing_is_harmless(housing);
+  if (*choice->why) cli_note("%s: note: %s", arguments->slab, choice->why);
+  if (housing && !harmless)
+    cli_note("%s: note: its housing is left out: it is more than an object (directives, or "
+             "braces that do not match)",
+             arguments->slab);
+  struct include_text text = {.name = name,
+                              .file = base_name(arguments->output),
+                              .image = picture_of(choice) ? base_name(image) : NULL,
+                              .command = cli_command_line(),
+                              .housing = harmless ? housing : NULL,
+                              .housing_left_out = housing && !harmless,
+                              .chosen = *choice->why ? choice->why : NULL};
+  enum result result = write_files(choice, &text, arguments->output, image, error);
+  free(housing);
+  return result;
+}
+
+static enum result include_slab(const struct arguments *arguments, struct error *error) {
+  struct slab *slabs = NULL;
+  int count = 0;
+  struct include_choice choice = {0};
+  char name[SDL_IDENTIFIER_SIZE];
+  char *image = image_path(arguments->output);
+  enum result result = RESULT_OK;
+  if (!image) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (result == RESULT_OK) result = check_outputs(arguments->slab, arguments->output, image, error);
+  if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
+  if (result == RESULT_OK) {
+    result = choose_name(arguments->name, &slabs[0], name, error);
+    if (result == RESULT_OK) result = make_lights(arguments, slabs, count, &choice, error);
+    result = blame(arguments->slab, result, error);
+  }
+  if (result == RESULT_OK)
+    result = write_include(arguments, &slabs[0], name, &choice, image, error);
+  free(image);
+  include_choice_free(&choice);
+  slab_file_free_all(slabs, count);
+  return result;
+}
+
+int cmd_include(int argc, char **argv) {
+  struct arguments arguments = {0};
+  static const struct argp argp = {.options = options,
+                                   .parser = parse_option,
+                                   .args_doc = "SLAB -o LAMP.inc",
+                                   .doc = help_text,
+                                   .children = cli_options};
+  cli_parse(&argp, argc, argv, &arguments);
+  size_t length = strlen(arguments.output);
+  for (const char *c = arguments.output; *c; ++c)
+    if (iscntrl((unsigned char)*c)) {
+      cli_complain("%s: the output's name must not have control characters", arguments.output);
+      return CLI_USAGE;
+    }
+  if (length < 5 || strcmp(arguments.output + length - 4, ".inc")) {
+    cli_complain("%s: the output must end in .inc; its image gets .exr", arguments.output);
+    return CLI_USAGE;
+  }
+  struct error error;
+  if (include_slab(&arguments, &error) != RESULT_OK) return cli_fail(&error);
+  return CLI_OK;
+}

@@ -1,0 +1,219 @@
+/* cmd_projector.c - bakeslab projector: an image becomes the slab of a slide projector. */
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "bake/projector.h"
+#include "base/name.h"
+#include "cmd/slab_options.h"
+#include "file/slab_file.h"
+#include "file/slab_image.h"
+#include "file/slab_json.h"
+
+struct arguments {
+  const char *image, *output;
+  enum slab_precision precision;
+  struct projector projector;
+};
+
+enum {
+  OPTION_APERTURE = 256,
+  OPTION_FOCUS,
+  OPTION_WIDTH,
+  OPTION_UV,
+  OPTION_ST,
+  OPTION_WHITE,
+  OPTION_FLUX,
+  OPTION_UNIT,
+  OPTION_METRES,
+  OPTION_PRECISION
+};
+
+static const struct argp_option options[] = {
+    {"output", 'o', "SLAB", 0,
+     "The slab to write: .tif (LogLuv unless --precision says else) or .exr", 1},
+    {"aperture", OPTION_APERTURE, "W[xH]", 0, "Size of the opening that the light comes from", 1},
+    {"focus", OPTION_FOCUS, "D", 0, "Distance at which the picture is sharp", 1},
+    {"width", OPTION_WIDTH, "W", 0, "Of the picture there; its pixels are square", 1},
+    {"uv", OPTION_UV, "NxM", 0,
+     "Positions on the aperture (default 8x8): all with the same samples, for methods that sum "
+     "over positions; 1x1 is as exact for those that integrate",
+     2},
+    {"st", OPTION_ST, "NxM", 0,
+     "Samples of the picture (default: the image's pixels, at most 256 along the longer side). "
+     "Fewer than pixels are means over their cells, more are interpolated",
+     2},
+    {"white", OPTION_WHITE, "L", 0, "Radiance where the image is 1 (default 1)", 3},
+    {"flux", OPTION_FLUX, "F", 0,
+     "Flux with an all-white picture instead, as projectors are sold by: lumens for --unit cd/m2, "
+     "watts for W/(sr m2)",
+     3},
+    {"unit", OPTION_UNIT, "UNIT", 0, "Of radiance: cd/m2, W/(sr m2) or relative (the default)", 3},
+    {"metres-per-unit", OPTION_METRES, "M", 0, "Length of a lamp unit in metres (default 1)", 3},
+    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "Of the samples in the file", 1},
+    {0}};
+
+static const char doc[] =
+    "Makes the light slab of a slide projector from an image. Each ray from the aperture has the "
+    "colour of the picture where it passes the focus plane. So a screen there shows the picture "
+    "sharp; at the distance d each point of it is blurred over a rectangle, the aperture times "
+    "|d - D|/D; and towards the corners it gets darker by the cosines."
+    "\v"
+    "The projector is at the origin and shines along +z; the picture is upright (+y), and not "
+    "mirrored for who looks along with the light.\n"
+    "\n"
+    "IMAGE is PNG, JPEG, TIFF, EXR or what else oiiotool reads. Floating-point files are linear, "
+    "others sRGB unless they say that they are linear. Transparent pixels are refused. The lamp's "
+    "name in POV-Ray is that of the output, if it is an identifier.\n"
+    "\n"
+    "Examples:\n"
+    "  bakeslab projector slide.png -o slide.tif --aperture 0.05 --focus 3 --width 2\n"
+    "  bakeslab projector film.jpg -o film.tif --aperture 5x3 --focus 400 --width 300 --flux 2000 "
+    "--unit cd/m2 --metres-per-unit 0.01\n"
+    "  renderslab image room.obj --light 'slide.tif at=0,1,-3 toward=0,1,0' --camera "
+    "'from=1,1.5,-3 at=0,1,0' -o room.exr";
+
+static void parse_aperture(struct argp_state *state, const char *text, double aperture[2]) {
+  char width[64];
+  const char *height = strchr(text, 'x');
+  int length = height ? (int)(height - text) : (int)strlen(text);
+  snprintf(width, sizeof width, "%.*s", length, text);
+  aperture[0] = cli_parse_positive(state, "--aperture", width);
+  aperture[1] = height ? cli_parse_positive(state, "--aperture", height + 1) : aperture[0];
+}
+
+static void check_arguments(struct argp_state *state, struct arguments *arguments) {
+  struct projector *projector = &arguments->projector;
+  struct error error = {{0}};
+  if (!arguments->image) argp_error(state, "no image given");
+  if (!arguments->output) argp_error(state, "no output given: -o SLAB");
+  if (!(projector->aperture[0] > 0)) argp_error(state, "no opening given: --aperture W[xH]");
+  if (!(projector->focus > 0)) argp_error(state, "no focus given: --focus D");
+  if (!(projector->width > 0)) argp_error(state, "no size of the picture given: --width W");
+  if (projector->white > 0 && projector->flux > 0)
+    argp_error(state, "--white and --flux: give one of them");
+  if (!(projector->flux > 0) && !(projector->white > 0)) projector->white = 1;
+  if (projector_check(projector, &error) != RESULT_OK) argp_error(state, "%s", error.text);
+}
+
+/* What the projector is; false for other keys. */
+static bool parse_projector(int key, char *text, struct argp_state *state,
+                            struct projector *projector) {
+  switch (key) {
+  case OPTION_APERTURE:
+    parse_aperture(state, text, projector->aperture);
+    return true;
+  case OPTION_FOCUS:
+    projector->focus = cli_parse_positive(state, "--focus", text);
+    return true;
+  case OPTION_WIDTH:
+    projector->width = cli_parse_positive(state, "--width", text);
+    return true;
+  case OPTION_UV:
+    cli_parse_samples(state, "--uv", text, projector->uv);
+    return true;
+  case OPTION_ST:
+    cli_parse_samples(state, "--st", text, projector->st);
+    return true;
+  case OPTION_WHITE:
+    projector->white = cli_parse_positive(state, "--white", text);
+    return true;
+  case OPTION_FLUX:
+    projector->flux = cli_parse_positive(state, "--flux", text);
+    return true;
+  case OPTION_UNIT:
+    projector->unit = text;
+    return true;
+  case OPTION_METRES:
+    projector->metres_per_unit = cli_parse_positive(state, "--metres-per-unit", text);
+    return true;
+  default:
+    return false;
+  }
+}
+
+static error_t parse(int key, char *text, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  if (parse_projector(key, text, state, &arguments->projector)) return 0;
+  switch (key) {
+  case 'o':
+    arguments->output = text;
+    return 0;
+  case OPTION_PRECISION:
+    if (!cli_parse_precision(text, &arguments->precision))
+      argp_error(state, "--precision %s: must be logluv, float or half", text);
+    return 0;
+  case ARGP_KEY_ARG:
+    if (arguments->image) argp_error(state, "%s: one image at a time", text);
+    arguments->image = text;
+    return 0;
+  case ARGP_KEY_SUCCESS:
+    check_arguments(state, arguments);
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* Refuses what could not be written, and to write over the image. */
+static enum result check_output(const struct arguments *arguments, struct error *error) {
+  struct stat image, output;
+  if (stat(arguments->image, &image) == 0 && stat(arguments->output, &output) == 0 &&
+      image.st_dev == output.st_dev && image.st_ino == output.st_ino)
+    return result_fail(error, RESULT_BAD, "%s: is the image; give the slab another name",
+                       arguments->output);
+  return slab_file_check_target(arguments->output, arguments->precision, error);
+}
+
+static enum result read_image(const char *path, struct picture *image, struct error *error) {
+  bool transparent = false;
+  enum result result = slab_image_read(path, NULL, 0, NULL, image, &transparent, error);
+  if (result != RESULT_OK || !transparent) return result;
+  picture_free(image);
+  return result_fail(error, RESULT_BAD,
+                     "%s: has transparent pixels; put it on black first: oiiotool IMAGE --ch R,G,B "
+                     "-o OPAQUE.png",
+                     path);
+}
+
+/* The output's name without folder and suffix. */
+static void set_name(struct slab *slab, const char *output) {
+  const char *slash = strrchr(output, '/'), *base = slash ? slash + 1 : output;
+  char capitalised[SDL_IDENTIFIER_SIZE];
+  snprintf(slab->name, sizeof slab->name, "%.*s", (int)strcspn(base, "."), base);
+  if (sdl_capitalise(slab->name, capitalised, NULL) != RESULT_OK)
+    snprintf(slab->name, sizeof slab->name, "projector");
+}
+
+static enum result run(const struct arguments *arguments, struct error *error) {
+  struct picture image = {0};
+  struct slab slab = {0};
+  struct error why = {{0}};
+  enum result result = check_output(arguments, error);
+  if (result == RESULT_OK) result = read_image(arguments->image, &image, error);
+  if (result != RESULT_OK) return result;
+  result = projector_slab(&arguments->projector, &image, &slab, &why);
+  picture_free(&image);
+  if (result == RESULT_OK)
+    result = slab_json_record(&slab, cli_command_line(), "bakeslab " CANNED_VERSION, false, &why);
+  if (result == RESULT_OK) {
+    set_name(&slab, arguments->output);
+    result = slab_file_write(arguments->output, &slab, 1, arguments->precision, error);
+  } else {
+    result_fail(error, result, "%s: %s", arguments->image, why.text);
+  }
+  slab_free(&slab);
+  return result;
+}
+
+int cmd_projector(int argc, char **argv) {
+  static const struct argp argp = {
+      options, parse, "IMAGE -o SLAB --aperture W --focus D --width W", doc, cli_options,
+      NULL,    NULL};
+  struct arguments arguments = {
+      .projector = {.uv = {8, 8}, .metres_per_unit = 1, .unit = "relative"}};
+  struct error error = {{0}};
+  cli_parse(&argp, argc, argv, &arguments);
+  int status = run(&arguments, &error) == RESULT_OK ? CLI_OK : cli_fail(&error);
+  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+}

@@ -1,0 +1,35 @@
+/* slab_options.h - what bakeslab's commands share beyond cli/cli.h. A command is a
+ * function in cmd_NAME.c, listed in main.c's table. */
+#ifndef SLAB_OPTIONS_H
+#define SLAB_OPTIONS_H
+
+#include <argp.h>
+#include <stdbool.h>
+
+#include "cli/cli.h"
+#include "file/slab_file.h"
+
+int cmd_bake(int argc, char **argv);
+int cmd_check(int argc, char **argv);
+int cmd_convert(int argc, char **argv);
+int cmd_diff(int argc, char **argv);
+int cmd_include(int argc, char **argv);
+int cmd_info(int argc, char **argv);
+int cmd_lookup(int argc, char **argv);
+int cmd_projector(int argc, char **argv);
+
+/* "logluv", "float" or "half", and back. */
+bool cli_parse_precision(const char *text, enum slab_precision *precision);
+const char *cli_precision_name(enum slab_precision precision);
+
+/* For argp: what an option's argument says. They complain of numbers that are not positive and
+ * finite, and of numbers of samples that are no NxM. */
+void cli_parse_samples(struct argp_state *state, const char *option, const char *text,
+                       int samples[2]);
+double cli_parse_positive(struct argp_state *state, const char *option, const char *text);
+
+/* For argp: takes exactly one argument, a slab, into *path, and complains about none or
+ * more. Call it for keys that are no option of the command. */
+error_t cli_parse_slab(int key, char *argument, struct argp_state *state, const char **path);
+
+#endif

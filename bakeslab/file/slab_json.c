@@ -1,0 +1,369 @@
+/* slab_json.c - reads and writes the JSON text of a page with jansson. */
+#include "file/slab_json.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FORMAT_VERSION = 1 };
+
+static _Thread_local unsigned long lost;
+
+static void *allocate(size_t size) {
+  void *memory = malloc(size);
+  if (!memory) ++lost;
+  return memory;
+}
+
+__attribute__((constructor)) static void watch_allocations(void) {
+  json_set_alloc_funcs(allocate, free);
+}
+
+unsigned long slab_json_lost(void) {
+  return lost;
+}
+
+static enum result no_memory(struct error *error) {
+  return result_fail(error, RESULT_MEMORY, "out of memory");
+}
+
+static enum result load(const char *text, size_t flags, json_t **root, struct error *error) {
+  json_error_t why;
+  unsigned long before = lost;
+  *root = json_loads(text, flags, &why);
+  if (*root && lost == before) return RESULT_OK;
+  json_decref(*root);
+  *root = NULL;
+  if (lost != before) return no_memory(error);
+  return result_fail(error, RESULT_BAD, "malformed JSON: line %d: %s", why.line, why.text);
+}
+
+static enum result get_numbers(const json_t *root, const char *key, double *out, size_t count,
+                               struct error *error) {
+  const json_t *array = json_object_get(root, key);
+  if (!array) return result_fail(error, RESULT_BAD, "required key \"%s\" is missing", key);
+  if (!json_is_array(array) || json_array_size(array) != count)
+    return result_fail(error, RESULT_BAD, "\"%s\" must be an array of %zu numbers", key, count);
+  for (size_t k = 0; k < count; ++k) {
+    const json_t *number = json_array_get(array, k);
+    if (!json_is_number(number))
+      return result_fail(error, RESULT_BAD, "\"%s\" must be an array of %zu numbers", key, count);
+    out[k] = json_number_value(number);
+  }
+  return RESULT_OK;
+}
+
+static enum result get_number(const json_t *root, const char *key, double *out,
+                              struct error *error) {
+  const json_t *number = json_object_get(root, key);
+  if (!number) return RESULT_OK;
+  if (!json_is_number(number))
+    return result_fail(error, RESULT_BAD, "\"%s\" must be a number", key);
+  *out = json_number_value(number);
+  return RESULT_OK;
+}
+
+static enum result get_string(const json_t *root, const char *key, char *out, size_t room,
+                              struct error *error) {
+  const json_t *string = json_object_get(root, key);
+  if (!string) return RESULT_OK;
+  if (!json_is_string(string))
+    return result_fail(error, RESULT_BAD, "\"%s\" must be a string", key);
+  size_t length = json_string_length(string);
+  if (strlen(json_string_value(string)) != length)
+    return result_fail(error, RESULT_BAD, "\"%s\" holds a zero byte", key);
+  if (length >= room)
+    return result_fail(error, RESULT_BAD, "\"%s\" is longer than %zu bytes", key, room - 1);
+  memcpy(out, json_string_value(string), length + 1);
+  return RESULT_OK;
+}
+
+static enum result check_format(const json_t *root, struct error *error) {
+  if (!json_is_object(root))
+    return result_fail(error, RESULT_BAD, "the JSON text is not an object");
+  const json_t *format = json_object_get(root, "format");
+  if (!format) return result_fail(error, RESULT_BAD, "required key \"format\" is missing");
+  if (!json_is_string(format) || strcmp(json_string_value(format), "light-slab") != 0)
+    return result_fail(error, RESULT_BAD, "\"format\" is not \"light-slab\"");
+  const json_t *version = json_object_get(root, "version");
+  if (!version) return result_fail(error, RESULT_BAD, "required key \"version\" is missing");
+  if (!json_is_integer(version))
+    return result_fail(error, RESULT_BAD, "\"version\" must be an integer");
+  if (json_integer_value(version) != FORMAT_VERSION)
+    return result_fail(error, RESULT_BAD,
+                       "version %" JSON_INTEGER_FORMAT
+                       " of the format is unknown (this program reads version %d)",
+                       json_integer_value(version), FORMAT_VERSION);
+  return RESULT_OK;
+}
+
+static enum result get_samples(const json_t *root, struct slab *slab, struct error *error) {
+  const json_t *array = json_object_get(root, "samples");
+  if (!array) return result_fail(error, RESULT_BAD, "required key \"samples\" is missing");
+  if (!json_is_array(array) || json_array_size(array) != SLAB_AXES)
+    return result_fail(error, RESULT_BAD, "\"samples\" must be an array of 4 integers");
+  for (size_t axis = 0; axis < SLAB_AXES; ++axis) {
+    const json_t *number = json_array_get(array, axis);
+    if (!json_is_integer(number))
+      return result_fail(error, RESULT_BAD, "\"samples\" must be an array of 4 integers");
+    json_int_t value = json_integer_value(number);
+    if (value < 1 || value > 1 << 30)
+      return result_fail(error, RESULT_BAD,
+                         "\"samples\" has %" JSON_INTEGER_FORMAT ", each must be at least 1",
+                         value);
+    slab->samples[axis] = (int)value;
+  }
+  return RESULT_OK;
+}
+
+static enum result get_distance(const json_t *root, struct slab *slab, struct error *error) {
+  if (json_is_null(json_object_get(root, "st_distance"))) return RESULT_OK;
+  return get_number(root, "st_distance", &slab->st_distance, error);
+}
+
+static enum result check_samples_are(const json_t *root, struct error *error) {
+  const json_t *how = json_object_get(root, "samples_are");
+  if (!how) return RESULT_OK;
+  const char *text = json_string_value(how);
+  if (text && (!strcmp(text, "cell_means") || !strcmp(text, "points"))) return RESULT_OK;
+  return result_fail(error, RESULT_BAD, "\"samples_are\" must be \"cell_means\" or \"points\"");
+}
+
+static enum result get_white(const json_t *root, double white[3], struct error *error) {
+  white[0] = white[1] = white[2] = 1;
+  if (!json_object_get(root, "logluv_white")) return RESULT_OK;
+  enum result result = get_numbers(root, "logluv_white", white, 3, error);
+  for (int c = 0; c < 3 && result == RESULT_OK; ++c)
+    if (!(white[c] > 0) || !isfinite(1 / white[c]))
+      result = result_fail(error, RESULT_BAD, "\"logluv_white\" must be positive");
+  return result;
+}
+
+static enum result get_fields(const json_t *root, struct slab *slab, double white[3],
+                              struct error *error) {
+  enum result result = check_format(root, error);
+  if (result == RESULT_OK) result = get_samples(root, slab, error);
+  if (result == RESULT_OK) result = get_numbers(root, "center", slab->center, 3, error);
+  if (result == RESULT_OK) result = get_numbers(root, "u", slab->u, 3, error);
+  if (result == RESULT_OK) result = get_numbers(root, "v", slab->v, 3, error);
+  if (result == RESULT_OK) result = get_numbers(root, "normal", slab->normal, 3, error);
+  if (result == RESULT_OK) result = get_numbers(root, "st_window", slab->st_window, 4, error);
+  if (result == RESULT_OK) result = get_distance(root, slab, error);
+  if (result == RESULT_OK)
+    result = get_number(root, "metres_per_unit", &slab->metres_per_unit, error);
+  if (result == RESULT_OK) result = get_string(root, "name", slab->name, sizeof slab->name, error);
+  if (result == RESULT_OK)
+    result =
+        get_string(root, "radiance_unit", slab->radiance_unit, sizeof slab->radiance_unit, error);
+  if (result == RESULT_OK) result = check_samples_are(root, error);
+  if (result == RESULT_OK) result = get_white(root, white, error);
+  if (result == RESULT_OK) result = slab_check(slab, error);
+  return result;
+}
+
+enum result slab_json_parse(const char *text, struct slab *slab, double white[3],
+                            struct error *error) {
+  double ignored[3];
+  json_t *root;
+  *slab = slab_default();
+  enum result result = load(text, JSON_REJECT_DUPLICATES, &root, error);
+  if (result == RESULT_OK) result = get_fields(root, slab, white ? white : ignored, error);
+  if (result == RESULT_OK) {
+    slab->json = strdup(text);
+    if (!slab->json) result = no_memory(error);
+  }
+  if (result != RESULT_OK) slab_free(slab);
+  json_decref(root);
+  return result;
+}
+
+/* The page's JSON as an object to change, or a new one. */
+static enum result load_object(const struct slab *slab, json_t **root, struct error *error) {
+  enum result result = load(slab->json ? slab->json : "{}", 0, root, error);
+  if (result != RESULT_OK) return result;
+  if (json_is_object(*root)) return RESULT_OK;
+  json_decref(*root);
+  *root = NULL;
+  return result_fail(error, RESULT_BAD, "the JSON text is not an object");
+}
+
+/* jansson leaves a key out whose text found no memory, and goes on. */
+static char *dump(const json_t *value) {
+  unsigned long before = lost;
+  char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  if (lost == before) return text;
+  free(text);
+  return NULL;
+}
+
+/* A whole number is written without a fraction: 1, not 1.0. */
+static json_t *number(double value) {
+  return value == rint(value) && fabs(value) < 1e15 ? json_integer((json_int_t)value)
+                                                    : json_real(value);
+}
+
+static json_t *numbers(const double *values, size_t count) {
+  json_t *array = json_array();
+  for (size_t k = 0; array && k < count; ++k)
+    if (json_array_append_new(array, number(values[k])) != 0) {
+      json_decref(array);
+      array = NULL;
+    }
+  return array;
+}
+
+enum result slab_json_text(const struct slab *slab, const double white[3], char **text,
+                           struct error *error) {
+  *text = NULL;
+  json_t *root = NULL;
+  unsigned long before = lost;
+  enum result result = slab_check(slab, error);
+  if (result == RESULT_OK) result = load_object(slab, &root, error);
+  if (result != RESULT_OK) return result;
+  json_t *samples = json_array();
+  int failed = !samples;
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    failed |= json_array_append_new(samples, json_integer(slab->samples[axis])) != 0;
+  failed |= json_object_set_new(root, "format", json_string("light-slab")) != 0;
+  failed |= json_object_set_new(root, "version", json_integer(FORMAT_VERSION)) != 0;
+  failed |= json_object_set_new(root, "name", json_string(slab->name)) != 0;
+  failed |= json_object_set_new(root, "samples", samples) != 0;
+  failed |= json_object_set_new(root, "center", numbers(slab->center, 3)) != 0;
+  failed |= json_object_set_new(root, "u", numbers(slab->u, 3)) != 0;
+  failed |= json_object_set_new(root, "v", numbers(slab->v, 3)) != 0;
+  failed |= json_object_set_new(root, "normal", numbers(slab->normal, 3)) != 0;
+  failed |= json_object_set_new(root, "st_window", numbers(slab->st_window, 4)) != 0;
+  failed |=
+      json_object_set_new(root, "st_distance",
+                          isinf(slab->st_distance) ? json_null() : number(slab->st_distance)) != 0;
+  failed |= json_object_set_new(root, "metres_per_unit", number(slab->metres_per_unit)) != 0;
+  failed |= json_object_set_new(root, "radiance_unit", json_string(slab->radiance_unit)) != 0;
+  if (white)
+    failed |= json_object_set_new(root, "logluv_white", numbers(white, 3)) != 0;
+  else
+    json_object_del(root, "logluv_white");
+  if (!failed) *text = dump(root);
+  json_decref(root);
+  if (*text) return RESULT_OK;
+  if (lost != before) return no_memory(error);
+  return result_fail(error, RESULT_BAD, "the description cannot be written as JSON%s",
+                     failed ? " (is the name UTF-8?)" : "");
+}
+
+enum result slab_json_set(struct slab *slab, const char *key, const char *value,
+                          struct error *error) {
+  json_t *root = NULL, *parsed = NULL;
+  struct error why;
+  char *text = NULL;
+  enum result result = load_object(slab, &root, error);
+  if (result != RESULT_OK) return result;
+  bool set = true;
+  if (value) {
+    result = load(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &parsed, &why);
+    if (result != RESULT_OK) {
+      result_fail(error, result, "\"%s\": %s", key, why.text);
+      goto out;
+    }
+    set = json_object_set(root, key, parsed) == 0;
+  } else {
+    json_object_del(root, key);
+  }
+  text = set ? dump(root) : NULL;
+  if (!text) {
+    result = no_memory(error);
+    goto out;
+  }
+  free(slab->json);
+  slab->json = text;
+out:
+  json_decref(parsed);
+  json_decref(root);
+  return result;
+}
+
+char *slab_json_get(const struct slab *slab, const char *key) {
+  json_t *root = NULL;
+  if (load_object(slab, &root, NULL) != RESULT_OK) return NULL;
+  const json_t *value = json_object_get(root, key);
+  char *text = value ? dump(value) : NULL;
+  json_decref(root);
+  return text;
+}
+
+char *slab_json_get_string(const struct slab *slab, const char *key, const char *inner) {
+  json_t *root = NULL;
+  if (load_object(slab, &root, NULL) != RESULT_OK) return NULL;
+  const char *text = json_string_value(json_object_get(json_object_get(root, key), inner));
+  char *copy = text ? strdup(text) : NULL;
+  if (text && !copy) ++lost;
+  json_decref(root);
+  return copy;
+}
+
+double slab_json_get_number(const struct slab *slab, const char *key, const char *inner,
+                            const char *innermost) {
+  json_t *root = NULL;
+  if (load_object(slab, &root, NULL) != RESULT_OK) return NAN;
+  const json_t *number =
+      json_object_get(json_object_get(json_object_get(root, key), inner), innermost);
+  double value = json_is_number(number) ? json_number_value(number) : NAN;
+  json_decref(root);
+  return value;
+}
+
+enum result slab_json_set_string(struct slab *slab, const char *key, const char *inner,
+                                 const char *value, struct error *error) {
+  json_t *root = NULL;
+  enum result result = load_object(slab, &root, error);
+  if (result != RESULT_OK) return result;
+  json_t *old = json_object_get(root, key);
+  json_t *object = json_is_object(old) ? json_incref(old) : json_object();
+  char *text = json_object_set_new(object, inner, json_string(value)) == 0 ? dump(object) : NULL;
+  result = text ? slab_json_set(slab, key, text, error) : no_memory(error);
+  free(text);
+  json_decref(object);
+  json_decref(root);
+  return result;
+}
+
+/* A string, or a note in its place where it is not UTF-8. */
+static json_t *string(const char *text) {
+  json_t *value = json_string(text);
+  return value ? value : json_string("(not UTF-8)");
+}
+
+enum result slab_json_record(struct slab *slab, const char *command, const char *tool, bool changed,
+                             struct error *error) {
+  static const char *const of_samples[] = {"rays", "noise"};
+  json_t *root = NULL;
+  unsigned long at_first = lost;
+  enum result result = load_object(slab, &root, error);
+  if (result != RESULT_OK) return result;
+  json_t *old = json_object_get(root, "provenance");
+  json_t *fresh = json_is_object(old) ? json_copy(old) : json_object();
+  json_t *before = json_object_get(old, "history");
+  json_t *history = json_is_array(before) ? json_copy(before) : json_array();
+  if (json_is_object(old)) {
+    json_t *step = json_object();
+    json_object_set(step, "command", json_object_get(old, "command"));
+    json_object_set(step, "tool", json_object_get(old, "tool"));
+    for (size_t k = 0; changed && k < sizeof of_samples / sizeof *of_samples; ++k) {
+      json_object_set(step, of_samples[k], json_object_get(old, of_samples[k]));
+      json_object_del(fresh, of_samples[k]);
+    }
+    json_array_append_new(history, step);
+  } else if (old) {
+    json_array_append(history, old);
+  }
+  json_object_set_new(fresh, "command", string(command));
+  json_object_set_new(fresh, "tool", string(tool));
+  json_object_set_new(fresh, "history", history);
+  char *text = dump(fresh);
+  result =
+      text && lost == at_first ? slab_json_set(slab, "provenance", text, error) : no_memory(error);
+  free(text);
+  json_decref(fresh);
+  json_decref(root);
+  return result;
+}

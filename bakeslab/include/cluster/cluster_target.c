@@ -1,0 +1,92 @@
+/* cluster_target.c - receivers that see the lights and the slab. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "include/cluster/cluster.h"
+#include "slab/plane.h"
+
+enum { PLANES = 5 };
+
+/* Planes that are fitted, as shares of the distance asked for, and how much the
+ * error on each counts. Far away all light seems to come from one point, near by
+ * a few lights cannot be right. */
+static const double shares[PLANES] = {0.25, 0.5, 1, 2, 4},
+                    weights[PLANES] = {0.25, 0.5, 1, 0.7, 0.7};
+
+/* Receivers an axis: different numbers, so that together they see the far field at many
+ * more directions than one plane does, and no lobe hides between them. */
+static const int receivers[PLANES] = {22, 22, 28, 26, 30};
+
+/* Beyond what the slab lights, lights must be dark. */
+static const double margin = 1.25;
+
+/* The flux counts as much as this many planes. */
+static const double flux_weight = 5;
+
+void cluster_target_add(const struct slab *slab, const struct plane *plane, double weight,
+                        struct cluster_target *target) {
+  double width = plane_width(slab), square = 0;
+  int first = target->count;
+  /* Half as many as the sheet's errors need, which are ten times smaller. */
+  const int points[2] = {plane->points[0] / 2, plane->points[1] / 2};
+  for (int row = 0; row < plane->receivers; ++row)
+    for (int column = 0; column < plane->receivers; ++column) {
+      int k = target->count++;
+      double at[2], area = plane_fan(plane, column + 0.5, row + 0.5, at);
+      plane_irradiance(slab, points, at, plane->distance, target->rgb[k]);
+      for (int c = 0; c < 2; ++c) target->at[k][c] = at[c] / width;
+      target->at[k][2] = plane->distance / width;
+      target->weight[k] = sqrt(area);
+      for (int c = 0; c < 3; ++c) square += area * target->rgb[k][c] * target->rgb[k][c];
+    }
+  for (int k = first; k < target->count; ++k)
+    target->weight[k] *= square > 0 ? weight / sqrt(square) : 0;
+}
+
+enum result cluster_target_room(int count, struct cluster_target *target, struct error *error) {
+  size_t room = (size_t)count + 1;
+  memset(target, 0, sizeof *target);
+  target->at = calloc(room, sizeof *target->at);
+  target->rgb = calloc(room, sizeof *target->rgb);
+  target->weight = calloc(room, sizeof *target->weight);
+  if (!target->at || !target->rgb || !target->weight)
+    return result_fail(error, RESULT_MEMORY, "out of memory");
+  return RESULT_OK;
+}
+
+enum result cluster_target_make(const struct slab *slab, double distance, double *unit,
+                                struct cluster_target *target, struct error *error) {
+  int room = 0;
+  double width = plane_width(slab), most = 0;
+  for (int p = 0; p < PLANES; ++p) room += receivers[p] * receivers[p];
+  enum result result = cluster_target_room(room, target, error);
+  if (result != RESULT_OK) return result;
+  for (int k = 0; k < 2; ++k) target->edge[k] = plane_edge(slab, k) / width;
+  memcpy(target->slopes, slab->st_window, sizeof target->slopes);
+  for (int p = 0; p < PLANES; ++p) {
+    struct plane plane = plane_make(slab, shares[p] * distance * width, margin, receivers[p]);
+    cluster_target_add(slab, &plane, weights[p], target);
+    target->narrowest = fmax(target->narrowest, plane_fan_step(&plane));
+  }
+  double *flux = target->rgb[target->count];
+  if (slab_flux(slab, flux)) return result_fail(error, RESULT_MEMORY, "out of memory");
+  for (int c = 0; c < 3; ++c) {
+    flux[c] /= width * width;
+    most = fmax(most, flux[c]);
+  }
+  *unit = most;
+  for (int k = 0; k <= target->count; ++k) {
+    for (int c = 0; c < 3; ++c) target->rgb[k][c] /= most;
+    target->weight[k] *= most;
+  }
+  target->weight[target->count] = flux_weight;
+  return RESULT_OK;
+}
+
+void cluster_target_free(struct cluster_target *target) {
+  free(target->at);
+  free(target->rgb);
+  free(target->weight);
+  memset(target, 0, sizeof *target);
+}

@@ -1,0 +1,34 @@
+/* include_choose.h - which kind of include is the cheapest that is exact enough. */
+#ifndef INCLUDE_CHOOSE_H
+#define INCLUDE_CHOOSE_H
+
+#include "include/cluster/cluster.h"
+#include "include/point/point.h"
+#include "include/sheet/sheet.h"
+
+enum include_mode { INCLUDE_SHEET = 1, INCLUDE_CLUSTER = 2, INCLUDE_POINT = 4 };
+enum { INCLUDE_ANY = INCLUDE_SHEET | INCLUDE_CLUSTER | INCLUDE_POINT };
+
+/* One of the three, as `mode` says; the others are zero. */
+struct include_choice {
+  enum include_mode mode;
+  struct sheet sheet;
+  struct cluster cluster;
+  struct point point;
+  char why[512]; /* one line; empty where there was no choice */
+};
+
+/* Of the kinds in `modes`, the cheapest for POV-Ray whose irradiance is `tolerance`
+ * (relative RMSE) or less off on planes at `distance`, in aperture widths, from each
+ * page; with as few lights as that allows. Refuses a tolerance that none meets, and
+ * says which comes closest. Free with include_choice_free, also after a failure. */
+enum result include_choose(const struct slab *slabs, int count, int modes, double tolerance,
+                           double distance, struct include_choice *choice, struct error *error);
+
+/* One kind with a number of lights: an axis for the sheet (0: all), in all for the
+ * cluster, which is fitted for `distance`. */
+enum result include_make(const struct slab *slabs, int count, enum include_mode mode, int lights,
+                         double distance, struct include_choice *choice, struct error *error);
+void include_choice_free(struct include_choice *choice);
+
+#endif

@@ -1,0 +1,44 @@
+/* point.h - a slab's far field as one POV-Ray point light in a small sphere, on
+ * which a lat-long image filters each ray.
+ *
+ * The light stands at the lamp's centre: that of its page, or the mean of its
+ * pages by their flux. The sphere's x, y and z are u, v and the normal of the
+ * first page with light. Of the image, column i lies at the longitude
+ * (i + 1/2) 2 pi/width, from x to z, row j, counted upwards, at the latitude
+ * ((j + 1/2)/height - 1/2) pi. */
+#ifndef POINT_H
+#define POINT_H
+
+#include <stdint.h>
+
+#include "file/slab_exr.h"
+#include "include/text/include_text.h"
+#include "slab/slab.h"
+
+enum { POINT_DISTANCES = 3 };
+extern const double point_distances[POINT_DISTANCES]; /* in aperture widths */
+
+struct point {
+  struct slab frame; /* geometry of the first page with light, without samples or text */
+  double center[3];
+  double width; /* of the widest aperture */
+  struct picture
+      picture;         /* intensity over its channel's peak; rows downwards, as files have them */
+  double intensity[3]; /* of what the image holds as 1, in lamp units */
+  double flux[3];      /* at Scale 1, in lamp units, of slab and light alike */
+  double error[POINT_DISTANCES], error_at, distance; /* relative RMSE; distance asked for */
+  int black_pages;
+  struct include_check check;
+  uint64_t stamp; /* hash of image and numbers */
+};
+
+/* Refuses negative radiance, lamps without light and what POV-Ray's numbers cannot
+ * hold. Free with point_free, also after a failure. */
+enum result point_make(const struct slab *slabs, int count, double distance, struct point *point,
+                       struct error *error);
+void point_free(struct point *point);
+
+/* point_text.c: the include file. The caller checks the stream. */
+void point_print(const struct point *point, const struct include_text *text, FILE *out);
+
+#endif

@@ -1,0 +1,116 @@
+/* lamp.c - the probe of a lamp script; see lamp.h. */
+#include "lamp/lamp.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/files.h"
+
+/* As include-pov/canned_bake.inc lays the probe's image out. */
+enum { PROBE_SIDE = 16, PROBE_VIEWS = 256, PROBE_MARKER = 5 };
+
+/* Canned_Bake_Probe keeps the effects' cost out; what depends on them is parsed. */
+static const char probe_scene[] = "#declare Canned_Bake_Describe = \"declared.txt\";\n"
+                                  "#declare Canned_Bake_Probe = 1;\n"
+                                  "#include \"canned_bake.inc\"\n"
+                                  "#include \"" LAMP_SCRIPT "\"\n"
+                                  "Canned_Probe()\n";
+
+static enum result read_declarations(const struct lamp_source *source, const char *directory,
+                                     struct lamp *lamp, struct error *error) {
+  char *text = files_read(directory, "declared.txt"); /* none where no macro was called */
+  if (!text && errno != ENOENT)
+    return result_fail(error, RESULT_IO, "%s/declared.txt: %s", directory, strerror(errno));
+  enum result result = lamp_declarations(text, source->script, lamp, error);
+  free(text);
+  return result;
+}
+
+static bool is_marker_row(const struct picture *picture, int row) {
+  const float *pixel = picture->rgb + (size_t)row * PROBE_SIDE * 3;
+  for (int n = 0; n < PROBE_SIDE; ++n, pixel += 3)
+    if (pixel[1] != PROBE_MARKER) return false;
+  return true;
+}
+
+static void read_picture(const struct picture *picture, struct lamp *lamp) {
+  lamp->defect_rows = is_marker_row(picture, 1) ? 1 : 0;
+  lamp->mesh_camera = is_marker_row(picture, 0) && !is_marker_row(picture, 2);
+  size_t count = (size_t)picture->width * (size_t)picture->height * 3;
+  for (size_t n = (size_t)(1 + lamp->defect_rows) * PROBE_SIDE * 3; n < count; ++n) {
+    double value = fabs((double)picture->rgb[n]);
+    if (value > lamp->peak) lamp->peak = value; /* Inf stays Inf, NaN is ignored */
+  }
+}
+
+static enum result write_probe(const char *directory, const struct effects *effects,
+                               struct error *error) {
+  char *scene = NULL;
+  size_t size;
+  FILE *out = open_memstream(&scene, &size);
+  if (!out) return result_fail(error, RESULT_MEMORY, "out of memory");
+  fputs("#version 3.7;\n", out);
+  if (effects) effects_declare(effects, out);
+  fputs(probe_scene, out);
+  enum result result = fclose(out) || !scene ? result_fail(error, RESULT_MEMORY, "out of memory")
+                                             : files_write(directory, "scene.pov", scene, error);
+  free(scene);
+  return result;
+}
+
+/* Runs POV-Ray with the list-maker, which wants the list's path in the environment. */
+static enum result run_listing(const struct povray *povray, const struct povray_job *job,
+                               struct error *error) {
+  char *folder = realpath(job->directory, NULL);
+  char *list = folder ? files_join(folder, "reads.txt") : NULL;
+  enum result result = RESULT_OK;
+  if (!list || setenv("CANNED_READS", list, 1) != 0)
+    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!result) result = povray_run(povray, job, error);
+  unsetenv("CANNED_READS");
+  free(list);
+  free(folder);
+  return result;
+}
+
+enum result lamp_try(const struct povray *povray, const struct lamp_source *source,
+                     const char *directory, const struct effects *effects,
+                     const volatile sig_atomic_t *stop, struct lamp *lamp, struct error *error) {
+  *lamp = (struct lamp){0};
+  struct lamp_library library;
+  lamp_source_library(source, &library);
+  struct povray_job job = {.directory = directory,
+                           .width = PROBE_SIDE,
+                           .height = 2 + PROBE_SIDE * PROBE_VIEWS,
+                           .frames = 1,
+                           .library = library.paths,
+                           .preload = "./" LAMP_READS,
+                           .stop = stop};
+  struct picture picture = {0};
+  enum result result = lamp_source_link(source, directory, error);
+  if (!result) result = write_probe(directory, effects, error);
+  if (!result) {
+    result = run_listing(povray, &job, error);
+    if (result) lamp_source_rename(source, error);
+    if (result == RESULT_BAD) result_fail(error, result, "%s: %s", source->script, error->text);
+  }
+  lamp->own_radiosity = povray_statistic(directory, "Radiosity samples calculated:") >= 0;
+  if (!result) result = read_declarations(source, directory, lamp, error);
+  if (!result)
+    result = lamp_reads_collect(directory, source->path, source->script, &lamp->reads, error);
+  if (!result) result = povray_read_frame(&job, 0, &picture, error);
+  if (!result) read_picture(&picture, lamp);
+  picture_free(&picture);
+  files_remove_tree(directory);
+  return result;
+}
+
+void lamp_free(struct lamp *lamp) {
+  for (int n = 0; n < lamp->slab_count; ++n) slab_free(&lamp->slabs[n]);
+  free(lamp->slabs);
+  lamp_reads_free(&lamp->reads);
+  *lamp = (struct lamp){0};
+}

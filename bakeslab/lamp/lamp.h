@@ -1,0 +1,82 @@
+/* lamp.h - a lamp script and what it says of itself (canned.inc's macros).
+ *
+ * One small POV-Ray run, the probe, tells all that a bake must know first: the
+ * slabs and effects that the script declares, the files that it reads, how
+ * bright the lamp is, and whether this POV-Ray's mesh_camera works and with which
+ * row defect (include-pov/canned_bake.inc). */
+#ifndef LAMP_H
+#define LAMP_H
+
+#include <signal.h>
+
+#include "lamp/effects.h"
+#include "lamp/lamp_reads.h"
+#include "povray/povray.h"
+#include "slab/slab.h"
+
+enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24 };
+
+/* What a scene's folder calls the script, and the preloaded list-maker, whose path may
+ * hold blanks, which LD_PRELOAD takes for separators. */
+#define LAMP_SCRIPT "canned-lamp.pov"
+#define LAMP_READS "canned-reads.so"
+
+/* Where POV-Ray finds what a script needs. Paths are absolute and owned. */
+struct lamp_source {
+  const char *script;                      /* as the user named it, for messages; not owned */
+  char *path;                              /* the script */
+  char *folder;                            /* its folder: relative includes are found there */
+  char *include_pov;                       /* canned.inc's folder */
+  char *reads;                             /* the preloaded list-maker of files read */
+  char *libraries[LAMP_MAX_LIBRARIES + 1]; /* the user's -L folders */
+};
+
+struct lamp {
+  int slab_count;
+  struct slab *slabs; /* geometry as declared; samples[] are all 1 */
+  bool needs_declared;
+  char needs[256];         /* of Canned_Needs */
+  struct lamp_reads reads; /* every file that the script reads */
+  bool bulbs;              /* Canned_Bulb was called */
+  double peak;             /* brightest radiance seen by the probe, any channel */
+  bool own_radiosity;      /* the script turns radiosity on by itself */
+  bool mesh_camera;        /* works */
+  int defect_rows;         /* image rows to skip: 1 with POV-Ray 3.7's defect */
+};
+
+/* Resolves the script and finds include-pov and the list-maker beside the
+ * running program. Free it with lamp_source_free in any case. */
+enum result lamp_source_open(const char *script, const char *const *libraries,
+                             struct lamp_source *source, struct error *error);
+void lamp_source_free(struct lamp_source *source);
+
+/* Makes `directory` and puts links to all that a scene in it includes: the
+ * script is LAMP_SCRIPT there. */
+enum result lamp_source_link(const struct lamp_source *source, const char *directory,
+                             struct error *error);
+
+/* The Library_Path entries that go with the links, NULL-terminated. Returns their
+ * number. The library must stay where it is: paths[] points into it. */
+struct lamp_library {
+  const char *paths[LAMP_MAX_LIBRARIES + 3];
+  char names[LAMP_MAX_LIBRARIES][LAMP_LINK_SIZE];
+};
+int lamp_source_library(const struct lamp_source *source, struct lamp_library *library);
+
+/* Puts the user's file names back into a message of POV-Ray's. */
+void lamp_source_rename(const struct lamp_source *source, struct error *error);
+
+/* Reads what canned.inc wrote of the script into a zeroed lamp: slabs, needs, bulbs. `text` is
+ * cut up on the way; NULL is an empty one. Messages begin with `script`. */
+enum result lamp_declarations(char *text, const char *script, struct lamp *lamp,
+                              struct error *error);
+
+/* Runs the probe in `directory`, which is made if need be, and removed. `effects` are those
+ * that the script is to find on; NULL leaves that to its Canned_Needs. `stop` as for
+ * povray_run. Free the lamp with lamp_free in any case. */
+enum result lamp_try(const struct povray *povray, const struct lamp_source *source,
+                     const char *directory, const struct effects *effects,
+                     const volatile sig_atomic_t *stop, struct lamp *lamp, struct error *error);
+void lamp_free(struct lamp *lamp);
+
+#endif

@@ -1,0 +1,133 @@
+/* lamp_declared.c - what a script declares, as canned.inc writes it down: a key and its value
+ * a line. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lamp/lamp.h"
+
+/* A script that declares more is in a loop. */
+enum { MOST_SLABS = 4096 };
+
+/* Numbers as canned.inc writes them: mantissa and binary exponent. */
+static bool read_numbers(const char *text, int count, double *numbers) {
+  for (int n = 0; n < count; ++n) {
+    char *end;
+    double mantissa = strtod(text, &end);
+    if (end == text) return false;
+    text = end;
+    long exponent = strtol(text, &end, 10);
+    if (end == text || exponent < -8192 || exponent > 8192) return false;
+    text = end;
+    numbers[n] = ldexp(mantissa, (int)exponent);
+  }
+  return true;
+}
+
+static bool read_text(const char *value, char *text, size_t size) {
+  size_t length = strlen(value);
+  if (length < size) memcpy(text, value, length + 1);
+  return length < size;
+}
+
+/* A bulb may be too small for the probe to see. */
+static bool read_bulb(const char *value, struct lamp *lamp) {
+  double rgb[3];
+  if (!read_numbers(value, 3, rgb)) return false;
+  lamp->bulbs = true;
+  for (int c = 0; c < 3; ++c) lamp->peak = fmax(lamp->peak, fabs(rgb[c]));
+  return true;
+}
+
+/* What the script says of the lamp as a whole. */
+static bool read_of_lamp(const char *key, const char *value, struct lamp *lamp,
+                         struct slab *common) {
+  if (!strcmp(key, "lamp")) return read_text(value, common->name, sizeof common->name);
+  if (!strcmp(key, "radiance_unit"))
+    return read_text(value, common->radiance_unit, sizeof common->radiance_unit);
+  if (!strcmp(key, "metres_per_unit")) return read_numbers(value, 1, &common->metres_per_unit);
+  if (!strcmp(key, "bulb")) return read_bulb(value, lamp);
+  if (strcmp(key, "needs") != 0) return false;
+  lamp->needs_declared = true;
+  return read_text(value, lamp->needs, sizeof lamp->needs);
+}
+
+/* What it says of the latest "slab". */
+static bool read_of_slab(const char *key, const char *value, struct slab *slab) {
+  const struct {
+    const char *key;
+    int count;
+    double *numbers;
+  } known[] = {
+      {"center", 3, slab->center},        {"u", 3, slab->u},         {"v", 3, slab->v},
+      {"normal", 3, slab->normal},        {"s", 2, slab->st_window}, {"t", 2, slab->st_window + 2},
+      {"distance", 1, &slab->st_distance}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
+    if (!strcmp(key, known[k].key)) return read_numbers(value, known[k].count, known[k].numbers);
+  return false;
+}
+
+static enum result add_slab(struct lamp *lamp, struct error *error) {
+  if (lamp->slab_count == MOST_SLABS)
+    return result_fail(error, RESULT_BAD, "declares more than %d slabs", MOST_SLABS);
+  struct slab *grown = realloc(lamp->slabs, (size_t)(lamp->slab_count + 1) * sizeof *grown);
+  if (!grown) return result_fail(error, RESULT_MEMORY, "out of memory");
+  lamp->slabs = grown;
+  grown[lamp->slab_count] = slab_default();
+  for (int axis = 0; axis < SLAB_AXES; ++axis) grown[lamp->slab_count].samples[axis] = 1;
+  ++lamp->slab_count;
+  return RESULT_OK;
+}
+
+static enum result read_line(char *line, struct lamp *lamp, struct slab *common,
+                             struct error *error) {
+  if (!strcmp(line, "slab")) return add_slab(lamp, error);
+  char *value = strchr(line, ' ');
+  if (value) {
+    *value = 0;
+    struct slab *slab = lamp->slab_count ? &lamp->slabs[lamp->slab_count - 1] : NULL;
+    if (read_of_lamp(line, value + 1, lamp, common) ||
+        (slab && read_of_slab(line, value + 1, slab)))
+      return RESULT_OK;
+    *value = ' ';
+  }
+  return result_fail(
+      error, RESULT_BAD,
+      "canned.inc said \"%s\", which this bakeslab does not know; use the canned.inc "
+      "that came with it",
+      line);
+}
+
+/* Fills in what all slabs share, and checks them. */
+static enum result finish(struct lamp *lamp, const struct slab *common, struct error *error) {
+  if (!lamp->slab_count)
+    return result_fail(error, RESULT_BAD,
+                       "declares no slab; it must #include \"canned.inc\" and call Canned_Slab");
+  if (!common->name[0])
+    return result_fail(error, RESULT_BAD, "has no name; call Canned_Lamp(\"name\")");
+  for (int n = 0; n < lamp->slab_count; ++n) {
+    struct slab *slab = &lamp->slabs[n];
+    memcpy(slab->name, common->name, sizeof slab->name);
+    memcpy(slab->radiance_unit, common->radiance_unit, sizeof slab->radiance_unit);
+    slab->metres_per_unit = common->metres_per_unit;
+    if (slab->st_distance == 0) slab->st_distance = INFINITY;
+    double length = hypot(hypot(slab->normal[0], slab->normal[1]), slab->normal[2]);
+    for (int axis = 0; axis < 3; ++axis) slab->normal[axis] /= length;
+    struct error reason;
+    enum result result = slab_check(slab, &reason);
+    if (result) return result_fail(error, result, "Canned_Slab %d: %s", n + 1, reason.text);
+  }
+  return RESULT_OK;
+}
+
+enum result lamp_declarations(char *text, const char *script, struct lamp *lamp,
+                              struct error *error) {
+  struct slab common = slab_default();
+  struct error reason;
+  enum result result = RESULT_OK;
+  for (char *line; !result && (line = strsep(&text, "\n"));)
+    if (*line) result = read_line(line, lamp, &common, &reason);
+  if (!result) result = finish(lamp, &common, &reason);
+  return result ? result_fail(error, result, "%s: %s", script, reason.text) : RESULT_OK;
+}

@@ -1,0 +1,211 @@
+/* probe.c - see probe.h. */
+#include "probe/probe.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "probe/probe_bake.h"
+
+/* Directions along an axis of a take, before it is refined. Interreflection and extended
+ * sources are dear: their takes are sparse. */
+enum { POSITIONS = 4, DENSE = 20, SPARSE = 10, MOST_DIRECTIONS = 40 };
+
+/* ---- Comparing ---- */
+
+static double luminance(const float *rgb) {
+  return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+}
+
+/* Flux by four parts of the rays, every other position along u and v: each part tells all of
+ * the light, and their scatter how well. */
+enum { PARTS = 4 };
+
+static void sum_parts(const struct probe_bake *take, double flux[PARTS]) {
+  for (int part = 0; part < PARTS; ++part) flux[part] = 0;
+  for (int n = 0; n < take->count; ++n) {
+    const struct slab *page = &take->pages[n];
+    const int *samples = page->samples;
+    const float *sample = page->rgb;
+    double area = slab_spacing(page, SLAB_S) * slab_spacing(page, SLAB_T) *
+                  slab_spacing(page, SLAB_U) * slab_spacing(page, SLAB_V);
+    for (int y = 0; y < slab_height(page); ++y)
+      for (int x = 0; x < slab_width(page); ++x, sample += 3) {
+        double s = slab_position(page, SLAB_S, x % samples[SLAB_S]);
+        double t = slab_position(page, SLAB_T, y % samples[SLAB_T]);
+        double r = 1 + s * s + t * t; /* near enough with a finite st plane too */
+        flux[2 * (y / samples[SLAB_T] % 2) + x / samples[SLAB_S] % 2] +=
+            luminance(sample) * area / (r * r);
+      }
+  }
+}
+
+static double ratio(double part, double whole) {
+  if (part == 0) return 0;
+  return whole != 0 ? part / whole : INFINITY;
+}
+
+/* The light of a page by direction (all positions together, as seen from afar) and by
+ * position (all directions, as seen close up), one after the other. */
+static void sum_marginals(const struct slab *page, double *by_direction, double *by_position) {
+  const int *n = page->samples;
+  const float *sample = page->rgb;
+  for (int y = 0; y < slab_height(page); ++y)
+    for (int x = 0; x < slab_width(page); ++x, sample += 3) {
+      double light = luminance(sample);
+      by_direction[y % n[SLAB_T] * n[SLAB_S] + x % n[SLAB_S]] += light;
+      by_position[y / n[SLAB_T] * n[SLAB_U] + x / n[SLAB_S]] += light;
+    }
+}
+
+/* Adds to the sums of squares of what differs and of all. */
+static void add_squares(const double *a, const double *b, size_t count, double sums[2]) {
+  for (size_t k = 0; k < count; ++k) {
+    sums[0] += (b[k] - a[k]) * (b[k] - a[k]);
+    sums[1] += b[k] * b[k];
+  }
+}
+
+/* Fills the change's flux, and returns its standard error. */
+static double compare_flux(const struct probe_bake *without, const struct probe_bake *with,
+                           struct probe_change *change) {
+  double before[PARTS], after[PARTS], sums[2] = {0, 0}, squares = 0;
+  sum_parts(without, before);
+  sum_parts(with, after);
+  for (int part = 0; part < PARTS; ++part) {
+    sums[0] += before[part];
+    sums[1] += after[part];
+  }
+  change->flux = ratio(sums[1] - sums[0], sums[1]);
+  for (int part = 0; part < PARTS; ++part) {
+    double rest = after[part] - before[part] - change->flux * after[part];
+    squares += rest * rest;
+  }
+  return sqrt(ratio(squares * PARTS / (PARTS - 1), sums[1] * sums[1]));
+}
+
+static void compare_rms(const struct probe_bake *without, const struct probe_bake *with,
+                        struct probe_change *change) {
+  enum { MOST = MOST_DIRECTIONS * MOST_DIRECTIONS };
+  double sums[2][2] = {{0}};
+  for (int n = 0; n < with->count; ++n) {
+    const int *samples = with->pages[n].samples;
+    double light[2][2][MOST] = {{{0}}}; /* without, with; by direction, by position */
+    sum_marginals(&without->pages[n], light[0][0], light[0][1]);
+    sum_marginals(&with->pages[n], light[1][0], light[1][1]);
+    for (int k = 0; k < 2; ++k)
+      add_squares(light[0][k], light[1][k], (size_t)samples[2 - 2 * k] * (size_t)samples[3 - 2 * k],
+                  sums[k]);
+  }
+  change->rms = sqrt(fmax(ratio(sums[0][0], sums[0][1]), ratio(sums[1][0], sums[1][1])));
+}
+
+static bool matters(const struct probe_change *change, double threshold) {
+  return fabs(change->flux) > threshold || change->rms > 2 * threshold;
+}
+
+/* ---- Deciding ---- */
+
+static bool is_dear(enum effect effect) {
+  return effect == INTERREFLECTION || effect == EXTENDED_SOURCE;
+}
+
+/* Whether an effect is known to change nothing: rays that end before canned.inc's ordinary
+ * trace level, or no Canned_Bulb to extend. */
+static bool is_idle(const struct bake_work *work, enum effect effect,
+                    const struct probe_bake *without) {
+  enum { ORDINARY_LEVEL = 12 };
+  return (effect == DEEP_TRACE && without->depth < ORDINARY_LEVEL) ||
+         (effect == EXTENDED_SOURCE && !work->lamp->bulbs);
+}
+
+/* What an effect, further in `more` than in `less`, changes, and the trace level reached. The
+ * same rays show both; where they are too few to say on which side of the threshold the flux
+ * is, more of them do. */
+static enum result measure(const struct bake_work *work, enum effect effect,
+                           const struct effects *less, const struct effects *more,
+                           struct probe_change *change, int *depth, struct bake_report *report,
+                           struct error *error) {
+  const struct slab *slabs = work->lamp->slabs;
+  enum result result = RESULT_OK;
+  bool certain = false;
+  for (int n = is_dear(effect) ? SPARSE : DENSE; n <= MOST_DIRECTIONS && !certain && !result;
+       n *= 2) {
+    const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, n, n};
+    struct probe_bake without = {0}, with = {0};
+    result = probe_bake(work, slabs, less, samples, 1, &without, report, error);
+    certain = is_idle(work, effect, &without);
+    *change = (struct probe_change){.rays = 1};
+    if (!result && !certain)
+      result = probe_bake(work, slabs, more, samples, 1, &with, report, error);
+    if (!result && !certain) {
+      double deviation = compare_flux(&without, &with, change);
+      compare_rms(&without, &with, change);
+      change->rays = ratio(with.traced, without.traced);
+      *depth = with.depth;
+      certain = fabs(fabs(change->flux) - work->options->effect_threshold) > 2 * deviation;
+    }
+    probe_bake_free(&without);
+    probe_bake_free(&with);
+  }
+  return result;
+}
+
+/* Tries one effect on top of `effects`, and leaves it there as far as it matters. Where rays
+ * still end at the trace level, more levels may matter though these did not. */
+static enum result try_effect(const struct bake_work *work, enum effect effect,
+                              struct effects *effects, struct probe_effect *found,
+                              struct bake_report *report, struct error *error) {
+  enum result result = RESULT_OK;
+  bool go_on = true;
+  for (const int *step = effect_ladder(effect); *step && go_on && !result; ++step) {
+    struct effects more = *effects;
+    struct probe_change change = {0};
+    int depth = 0;
+    more.setting[effect] = *step;
+    result = measure(work, effect, effects, &more, &change, &depth, report, error);
+    bool good = matters(&change, work->options->effect_threshold);
+    if (effects->setting[effect]) {
+      found->next = change;
+      found->tried = true;
+      found->converged = !good;
+    } else {
+      found->first = change;
+    }
+    go_on = good || (effect == DEEP_TRACE && depth >= *step);
+    if (good) *effects = more;
+  }
+  return result;
+}
+
+enum result probe_effects(const struct bake_work *work, struct effects *effects,
+                          struct probe *probe, struct bake_report *report, struct error *error) {
+  static const enum effect order[EFFECTS] = {DEEP_TRACE, CAUSTICS, EXTENDED_SOURCE,
+                                             INTERREFLECTION};
+  enum result result = RESULT_OK;
+  *effects = (struct effects){0};
+  *probe = (struct probe){0};
+  for (int k = 0; k < EFFECTS && !result; ++k)
+    result = try_effect(work, order[k], effects, &probe->effects[order[k]], report, error);
+  return result;
+}
+
+void probe_say(const struct probe *probe, const struct effects *effects, enum effect effect,
+               char line[PROBE_LINE]) {
+  static const char *const units[EFFECTS] = {[INTERREFLECTION] = "bounces",
+                                             [CAUSTICS] = "photons",
+                                             [EXTENDED_SOURCE] = "lights a side",
+                                             [DEEP_TRACE] = "levels"};
+  const struct probe_effect *found = &probe->effects[effect];
+  int setting = effects->setting[effect];
+  int used = snprintf(line, PROBE_LINE, "%s: flux %+.2g %%, %.2g %% RMS, rays x %.2g",
+                      setting ? "on" : "off", 100 * found->first.flux, 100 * found->first.rms,
+                      found->first.rays);
+  if (setting && used > 0 && used < PROBE_LINE)
+    used += snprintf(line + used, (size_t)(PROBE_LINE - used), "; %d %s", setting, units[effect]);
+  if (setting && found->tried && used > 0 && used < PROBE_LINE)
+    snprintf(line + used, (size_t)(PROBE_LINE - used), ", %s %.2g %%, %.2g %% RMS",
+             found->converged ? "more would change" : "not converged, the last change was",
+             100 * found->next.flux, 100 * found->next.rms);
+}

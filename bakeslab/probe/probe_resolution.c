@@ -1,0 +1,212 @@
+/* probe_resolution.c - see probe_resolution.h. */
+#include "probe/probe_resolution.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "probe/probe_bake.h"
+#include "slab/slab_accuracy.h"
+#include "slab/slab_resample.h"
+
+/* Of the small bake: 4 rays keep its noise below the errors that it is to tell. */
+static const int taken[SLAB_AXES] = {8, 8, 64, 64};
+enum { TAKEN_RAYS = 4 };
+
+/* Light is looked at from the distance on, this far apart. */
+enum { DISTANCES = 3 };
+static const double distances[DISTANCES] = {1, 2, 8};
+
+static const int uv_ladder[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
+static const int st_ladder[] = {8,  12, 16,  20,  24,  32,  40,  48, 64,
+                                80, 96, 128, 160, 192, 256, 384, 512};
+
+/* No page gets more samples than this. */
+static const double most_samples = 1 << 26;
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* An error that falls as a power of the samples along an axis. */
+struct fall {
+  double at; /* of the small bake */
+  double power;
+};
+
+static double fall_to(const struct fall *fall, double part) {
+  return fall->at / pow(part, fall->power);
+}
+
+/* How fast a halving made it grow; two looks tell it badly, and it lies between these. */
+static struct fall make_fall(double full, double halved) {
+  double power = full > 0 ? log2(halved / full) : 2;
+  return (struct fall){isfinite(full) ? full : 0, fmin(fmax(power, 1), 2)};
+}
+
+/* The errors of all pages at all distances, for one choice of st plane. */
+struct plane_errors {
+  struct slab *slabs; /* geometry, owned */
+  int count;
+  struct fall (*st)[DISTANCES], (*uv)[DISTANCES]; /* by page; owned */
+};
+
+static void free_errors(struct plane_errors *errors) {
+  for (int n = 0; n < errors->count; ++n) slab_free(&errors->slabs[n]);
+  free(errors->slabs);
+  free(errors->st);
+  free(errors->uv);
+}
+
+static double worst(const struct plane_errors *errors, int uv, int st) {
+  double most = 0;
+  for (int n = 0; n < errors->count; ++n)
+    for (int k = 0; k < DISTANCES; ++k)
+      most = fmax(most, fall_to(&errors->st[n][k], (double)st / taken[SLAB_S]) +
+                            fall_to(&errors->uv[n][k], (double)uv / taken[SLAB_U]));
+  return most;
+}
+
+static enum result judge_page(const struct slab *page, double distance, struct fall st[DISTANCES],
+                              struct fall uv[DISTANCES], struct error *error) {
+  int halved[SLAB_AXES];
+  double at[DISTANCES];
+  struct slab half = {0};
+  struct slab_accuracy full[DISTANCES], less[DISTANCES];
+  for (int k = 0; k < DISTANCES; ++k) at[k] = distance * distances[k];
+  for (int axis = 0; axis < SLAB_AXES; ++axis) halved[axis] = page->samples[axis] / 2;
+  enum result result = slab_resample(page, halved, &half, error);
+  if (!result) result = slab_accuracy_estimate(page, DISTANCES, at, full, error);
+  if (!result) result = slab_accuracy_estimate(&half, DISTANCES, at, less, error);
+  for (int k = 0; k < DISTANCES && !result; ++k) {
+    st[k] = make_fall(full[k].st, less[k].st);
+    uv[k] = make_fall(full[k].uv, less[k].uv);
+  }
+  slab_free(&half);
+  return result;
+}
+
+/* Puts a slab's st plane at a distance; its window grows to hold the same rays. */
+static void move_plane(struct slab *slab, double distance) {
+  double kappa = fabs(1 / distance - slab_kappa(slab));
+  for (int k = 0; k < 4; ++k) {
+    double half = 0.5 * slab_spacing(slab, k / 2) * slab->samples[k / 2];
+    slab->st_window[k] += (k % 2 ? 1 : -1) * kappa * half;
+  }
+  slab->st_distance = distance;
+}
+
+static double distance_of(const struct bake_work *work, const struct slab *slab) {
+  double distance = work->options->for_distance;
+  return distance > 0 ? distance : 4 * slab_aperture(slab);
+}
+
+/* Interreflection is smooth: without it less light makes the relative error larger. */
+static enum result judge_plane(const struct bake_work *work, const struct slab *slabs, bool moved,
+                               struct plane_errors *errors, struct bake_report *report,
+                               struct error *error) {
+  size_t count = (size_t)work->lamp->slab_count;
+  struct effects effects = *work->look.effects;
+  struct probe_bake take = {0};
+  *errors = (struct plane_errors){.slabs = calloc(count, sizeof *errors->slabs),
+                                  .st = calloc(count, sizeof *errors->st),
+                                  .uv = calloc(count, sizeof *errors->uv)};
+  enum result result = errors->slabs && errors->st && errors->uv
+                           ? RESULT_OK
+                           : result_fail(error, RESULT_MEMORY, "out of memory");
+  for (; errors->count < (int)count && !result; ++errors->count) {
+    struct slab *slab = &errors->slabs[errors->count];
+    result = slab_copy_geometry(&slabs[errors->count], slab, error);
+    if (moved) move_plane(slab, work->options->for_distance);
+  }
+  effects.setting[INTERREFLECTION] = 0;
+  if (!result)
+    result = probe_bake(work, errors->slabs, &effects, taken, TAKEN_RAYS, &take, report, error);
+  for (int n = 0; n < errors->count && !result; ++n)
+    result = judge_page(&take.pages[n], distance_of(work, &take.pages[n]), errors->st[n],
+                        errors->uv[n], error);
+  probe_bake_free(&take);
+  return result;
+}
+
+struct choice {
+  int uv, st;
+  double error;
+};
+
+static double samples_of(const struct choice *choice) {
+  return pow(choice->uv, 2) * pow(choice->st, 2);
+}
+
+static bool is_better(const struct choice *a, const struct choice *b, double tolerance) {
+  bool meets[2] = {a->error <= tolerance, b->error <= tolerance};
+  if (meets[0] != meets[1]) return meets[0];
+  if (!meets[0]) return a->error < b->error;
+  return samples_of(a) < samples_of(b) || (samples_of(a) == samples_of(b) && a->error < b->error);
+}
+
+/* The fewest samples that meet the tolerance, else those with the least error. */
+static struct choice choose(const struct plane_errors *errors, const struct bake_options *options) {
+  struct choice best = {0};
+  for (size_t n = 0; n < COUNT(uv_ladder); ++n)
+    for (size_t k = 0; k < COUNT(st_ladder); ++k) {
+      struct choice next = {uv_ladder[n], st_ladder[k], 0};
+      if (!options->uv_free) next.uv = options->uv[0];
+      if (!options->st_free) next.st = options->st[0];
+      next.error = worst(errors, next.uv, next.st);
+      if (best.uv && samples_of(&next) > most_samples) continue;
+      if (best.uv == 0 || is_better(&next, &best, options->tolerance)) best = next;
+    }
+  return best;
+}
+
+static void say(const struct bake_options *options, const struct choice *choice,
+                const struct choice other[2], bool moved, struct probe_resolution *resolution) {
+  char planes[128] = "";
+  if (options->for_distance > 0)
+    snprintf(planes, sizeof planes,
+             "; st plane %s, the other way %d positions and %d directions a side",
+             moved ? "at that distance" : "as declared", other[!moved].uv, other[!moved].st);
+  snprintf(resolution->line, sizeof resolution->line,
+           "tolerance %g %s at %.6g lamp units and beyond by %d positions and %d directions a "
+           "side, error told %.2g%s",
+           options->tolerance, choice->error <= options->tolerance ? "met" : "not met",
+           resolution->distance, choice->uv, choice->st, choice->error, planes);
+}
+
+/* Gives the pages the samples chosen, and the st plane that they were chosen for. */
+static void apply(const struct bake_work *work, const struct choice *choice,
+                  const struct plane_errors *plane, struct slab *slabs,
+                  struct probe_resolution *resolution) {
+  const struct bake_options *options = work->options;
+  for (int n = 0; n < plane->count; ++n) {
+    for (int axis = 0; axis < 4; ++axis) {
+      bool positions = axis < SLAB_S, free = positions ? options->uv_free : options->st_free;
+      const int *fixed = positions ? options->uv : options->st;
+      slabs[n].samples[axis] = !free ? fixed[axis % 2] : positions ? choice->uv : choice->st;
+      slabs[n].st_window[axis] = plane->slabs[n].st_window[axis];
+    }
+    slabs[n].st_distance = plane->slabs[n].st_distance;
+    resolution->distance = fmax(resolution->distance, distance_of(work, &slabs[n]));
+  }
+}
+
+enum result probe_resolution(const struct bake_work *work, struct slab *slabs,
+                             struct probe_resolution *resolution, struct bake_report *report,
+                             struct error *error) {
+  const struct bake_options *options = work->options;
+  struct plane_errors planes[2] = {0};
+  struct choice choices[2] = {0};
+  int several = options->for_distance > 0 ? 2 : 1, best = 0;
+  enum result result = RESULT_OK;
+  for (int n = 0; n < several && !result; ++n) {
+    result = judge_plane(work, slabs, n == 1, &planes[n], report, error);
+    if (!result) choices[n] = choose(&planes[n], options);
+    if (!result && n && is_better(&choices[n], &choices[0], options->tolerance)) best = n;
+  }
+  if (!result) {
+    apply(work, &choices[best], &planes[best], slabs, resolution);
+    resolution->error = choices[best].error;
+    say(options, &choices[best], choices, best == 1, resolution);
+  }
+  for (int n = 0; n < several; ++n) free_errors(&planes[n]);
+  return result;
+}

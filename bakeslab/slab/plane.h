@@ -1,0 +1,44 @@
+/* plane.h - what a slab does to a plane: its irradiance, integrated densely, on
+ * receivers that cover the part of a plane parallel to the aperture which the
+ * window lets light reach. Approximations of the slab are fitted to it, and
+ * their errors told against it. */
+#ifndef PLANE_H
+#define PLANE_H
+
+#include "slab/slab.h"
+
+/* receivers x receivers equal cells, each with a receiver in it that faces the
+ * aperture. Lengths in lamp units, x along u and y along v. */
+struct plane {
+  double distance; /* from the aperture */
+  double low[2], size[2];
+  int receivers;
+  int points[2]; /* of the dense sum, along u and v */
+};
+
+/* The plane at a distance, its lit part widened by `margin` (1: just what is
+ * lit) about its centre. The number of receivers follows from a bound on the
+ * work, a fraction of a second, and is at most `most` (0: the default). */
+struct plane plane_make(const struct slab *slab, double distance, double margin, int most);
+
+void plane_receiver(const struct plane *plane, int column, int row, double at[2]);
+
+/* The same number of receivers at equal angles as seen from the aperture's middle, closer
+ * together where light is bright; (column, row) count cells, the first's middle is (0.5, 0.5).
+ * Returns the area of the plane that a cell stands for there. */
+double plane_fan(const struct plane *plane, double column, double row, double at[2]);
+
+/* Largest angle between neighbours of a fan, in radians. */
+double plane_fan_step(const struct plane *plane);
+
+/* Irradiance at (x, y, distance) of points[0] x points[1] point lights on the
+ * middles of as many cells of the aperture. */
+void plane_irradiance(const struct slab *slab, const int points[2], const double at[2],
+                      double distance, double rgb[3]);
+
+/* Length of the aperture's edge along SLAB_U or SLAB_V; the longer of both, in
+ * which distances are told. */
+double plane_edge(const struct slab *slab, int axis);
+double plane_width(const struct slab *slab);
+
+#endif

@@ -1,0 +1,210 @@
+/* slab_sharpen.c - see slab_sharpen.h. Works on one view at a time, in double: an array
+ * [t][s][rgb]. */
+#include "slab/slab_sharpen.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "file/slab_json.h"
+
+enum { PASSES = 4 }; /* of limiting: each gives what the ones before withheld another chance */
+
+/* The diagonal: a border's half cell is constant. */
+static double diagonal(int k, int count) {
+  return k == 0 || k == count - 1 ? 7 : 6;
+}
+
+/* Elimination of 8 times the system: off the diagonal it is 1, and it dominates, so
+ * that no pivot is needed. */
+void slab_sharpen_line(double *line, int count, size_t stride, double *scratch) {
+  if (count < 2) return;
+  double *upper = scratch, *right = scratch + count;
+  upper[0] = 1 / diagonal(0, count);
+  right[0] = 8 * line[0] * upper[0];
+  for (int k = 1; k < count; ++k) {
+    upper[k] = 1 / (diagonal(k, count) - upper[k - 1]);
+    right[k] = (8 * line[(size_t)k * stride] - right[k - 1]) * upper[k];
+  }
+  for (int k = count - 1; k >= 0; --k) {
+    if (k < count - 1) right[k] -= upper[k] * right[k + 1];
+    line[(size_t)k * stride] = right[k];
+  }
+}
+
+void slab_unsharpen_line(double *line, int count, size_t stride) {
+  if (count < 2) return;
+  double before = line[0], here = line[0];
+  for (int k = 0; k < count; ++k) {
+    double after = k + 1 < count ? line[(size_t)(k + 1) * stride] : here;
+    line[(size_t)k * stride] = (before + 6 * here + after) / 8;
+    before = here;
+    here = after;
+  }
+}
+
+/* ---- A view ---- */
+
+struct seen_page {
+  int ns, nt;
+  size_t count;                   /* 3 ns nt */
+  double *mean, *sharp, *give[2]; /* give: what a sample gives to the next along s, t */
+  double *share, *scratch;        /* share: of its gifts that a sample can afford */
+};
+
+static void free_view(struct seen_page *view) {
+  free(view->mean);
+}
+
+static enum result make_view(const struct slab *slab, struct seen_page *view, struct error *error) {
+  int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
+  size_t count = 3 * (size_t)ns * (size_t)nt, longest = (size_t)(ns > nt ? ns : nt);
+  double *room = calloc(5 * count + 2 * longest, sizeof *room);
+  if (!room) return result_fail(error, RESULT_MEMORY, "out of memory");
+  *view = (struct seen_page){.ns = ns,
+                             .nt = nt,
+                             .count = count,
+                             .mean = room,
+                             .sharp = room + count,
+                             .give = {room + 2 * count, room + 3 * count},
+                             .share = room + 4 * count,
+                             .scratch = room + 5 * count};
+  return RESULT_OK;
+}
+
+static size_t step(const struct seen_page *view, int axis) {
+  return axis ? 3 * (size_t)view->ns : 3;
+}
+
+/* Runs along all lines of the view, of one axis (0: s, 1: t) and all channels. */
+static void each_line(const struct seen_page *view, double *x, int axis, bool sharpen) {
+  size_t lines = (size_t)(axis ? view->ns : view->nt), count = (size_t)(axis ? view->nt : view->ns);
+  for (size_t line = 0; line < lines; ++line)
+    for (size_t c = 0; c < 3; ++c) {
+      double *first = x + line * step(view, !axis) + c;
+      if (sharpen)
+        slab_sharpen_line(first, (int)count, step(view, axis), view->scratch);
+      else
+        slab_unsharpen_line(first, (int)count, step(view, axis));
+    }
+}
+
+/* What the exact solution moves between neighbours: x - A x is the difference of (x[k+1]
+ * - x[k])/8 on a cell's two sides. Along s of x, along t of what A makes of x along s. */
+static void find_gifts(struct seen_page *view) {
+  memcpy(view->share, view->sharp, view->count * sizeof *view->share);
+  for (int axis = 0; axis < 2; ++axis) {
+    size_t next = step(view, axis), last = (size_t)(axis ? view->nt : view->ns) - 1;
+    for (size_t n = 0; n < view->count; ++n) {
+      size_t at = axis ? n / step(view, 1) : n % step(view, 1) / 3;
+      view->give[axis][n] = at < last ? (view->share[n + next] - view->share[n]) / 8 : 0;
+    }
+    if (axis == 0) each_line(view, view->share, 0, false);
+  }
+}
+
+/* The share of its gifts that each sample can afford, all channels alike. */
+static void find_shares(struct seen_page *view) {
+  for (size_t n = 0; n < view->count; n += 3) {
+    double least = 1;
+    for (size_t c = n; c < n + 3; ++c) {
+      double all = 0;
+      for (int axis = 0; axis < 2; ++axis) {
+        size_t next = step(view, axis);
+        all += fmax(view->give[axis][c], 0);
+        /* the sample before: what it would be given from here */
+        if (c >= next) all += fmax(-view->give[axis][c - next], 0);
+      }
+      if (all > view->mean[c]) least = fmin(least, fmax(view->mean[c], 0) / all);
+    }
+    for (size_t c = n; c < n + 3; ++c) view->share[c] = least;
+  }
+}
+
+/* Moves the part of each gift that its giver can afford, and keeps the rest of it. */
+static void give(struct seen_page *view) {
+  for (int axis = 0; axis < 2; ++axis) {
+    size_t next = step(view, axis);
+    for (size_t n = 0; n + next < view->count; n += 3) {
+      double share = 1;
+      for (size_t c = n; c < n + 3; ++c) {
+        if (view->give[axis][c] > 0) share = fmin(share, view->share[c]);
+        if (view->give[axis][c] < 0) share = fmin(share, view->share[c + next]);
+      }
+      for (size_t c = n; c < n + 3; ++c) {
+        double moved = share * view->give[axis][c];
+        view->mean[c] -= moved;
+        view->mean[c + next] += moved;
+        view->give[axis][c] -= moved;
+      }
+    }
+  }
+}
+
+/* From view->mean to view->sharp, without negative samples where there were none. */
+static void limit(struct seen_page *view) {
+  find_gifts(view);
+  memcpy(view->sharp, view->mean, view->count * sizeof *view->sharp);
+  for (int pass = 0; pass < PASSES; ++pass) {
+    find_shares(view);
+    give(view);
+  }
+  for (size_t n = 0; n < view->count; ++n) {
+    bool rounding = view->mean[n] < 0 && view->sharp[n] >= 0;
+    view->sharp[n] = rounding ? 0 : view->mean[n];
+  }
+}
+
+/* ---- A slab ---- */
+
+enum task { SHARPEN, SHARPEN_POSITIVE, UNSHARPEN };
+
+static void do_view(struct seen_page *view, enum task task) {
+  memcpy(view->sharp, view->mean, view->count * sizeof *view->sharp);
+  for (int axis = 0; axis < 2; ++axis) each_line(view, view->sharp, axis, task != UNSHARPEN);
+  bool negative = false;
+  for (size_t n = 0; n < view->count; ++n) negative |= view->sharp[n] < 0;
+  if (negative && task == SHARPEN_POSITIVE) limit(view);
+}
+
+static enum result do_slab(struct slab *slab, enum task task, struct error *error) {
+  struct seen_page view = {0};
+  enum result result = make_view(slab, &view, error);
+  if (result != RESULT_OK) return result;
+  size_t width = step(&view, 1);
+  for (int j = 0; j < slab->samples[SLAB_V]; ++j)
+    for (int i = 0; i < slab->samples[SLAB_U]; ++i) {
+      bool dark = true;
+      for (size_t n = 0; n < view.count; ++n) {
+        view.mean[n] = (double)slab_at(slab, i, j, 0, (int)(n / width))[n % width];
+        dark &= view.mean[n] == 0;
+      }
+      if (dark) continue;
+      do_view(&view, task);
+      for (size_t n = 0; n < view.count; ++n)
+        slab_at(slab, i, j, 0, (int)(n / width))[n % width] = (float)view.sharp[n];
+    }
+  free_view(&view);
+  return RESULT_OK;
+}
+
+enum result slab_sharpen(struct slab *slab, enum slab_sharpening how, struct error *error) {
+  return do_slab(slab, how == SLAB_SHARPEN_POSITIVE ? SHARPEN_POSITIVE : SHARPEN, error);
+}
+
+enum result slab_unsharpen(struct slab *slab, struct error *error) {
+  return do_slab(slab, UNSHARPEN, error);
+}
+
+/* ---- Provenance ---- */
+
+enum result slab_sharpen_record(struct slab *slab, enum slab_sharpening how, struct error *error) {
+  return slab_json_set_string(slab, "provenance", "sharpened",
+                              how == SLAB_SHARPEN_POSITIVE ? "st, not below zero" : "st", error);
+}
+
+bool slab_is_sharpened(const struct slab *slab) {
+  char *how = slab_json_get_string(slab, "provenance", "sharpened");
+  free(how);
+  return how != NULL;
+}

@@ -1,0 +1,113 @@
+/* receiver_text.c - see receiver_text.h. */
+#include "cmd/receiver_text.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/key_values.h"
+#include "base/vector.h"
+
+void receiver_text_free(struct receivers *receivers) {
+  free(receivers->receiver);
+  free(receivers->order);
+  *receivers = (struct receivers){0};
+}
+
+/* Six numbers and nothing else. */
+static bool parse(const char *line, double numbers[6]) {
+  const char *at = line;
+  for (int k = 0; k < 6; ++k, at += strspn(at, WORDS_BLANKS))
+    if (!key_values_number_at(at, &at, &numbers[k])) return false;
+  return !*at;
+}
+
+static enum result add(struct receivers *receivers, const char *line, struct error *error) {
+  double numbers[6];
+  unsigned long long number = receivers->line;
+  if (!parse(line, numbers))
+    return result_fail(
+        error, RESULT_BAD,
+        "stdin: line %llu: is not a receiver `px py pz nx ny nz` of six finite numbers", number);
+  struct receiver *receiver = &receivers->receiver[receivers->count++];
+  *receiver = (struct receiver){.index = receivers->index++};
+  memcpy(receiver->position, numbers, sizeof receiver->position);
+  memcpy(receiver->normal, numbers + 3, sizeof receiver->normal);
+  if (!vector_normalise(receiver->normal))
+    return result_fail(error, RESULT_BAD, "stdin: line %llu: the normal has no direction", number);
+  memcpy(receiver->lift, receiver->normal, sizeof receiver->lift);
+  return RESULT_OK;
+}
+
+/* Ten bits, each followed by two zeros. */
+static uint32_t spread(uint32_t bits) {
+  bits = (bits | bits << 16) & 0x30000ff;
+  bits = (bits | bits << 8) & 0x300f00f;
+  bits = (bits | bits << 4) & 0x30c30c3;
+  return (bits | bits << 2) & 0x9249249;
+}
+
+struct place {
+  uint32_t key;
+  int index;
+};
+
+static int compare(const void *left, const void *right) {
+  const struct place *a = left, *b = right;
+  if (a->key != b->key) return a->key < b->key ? -1 : 1;
+  return (a->index > b->index) - (a->index < b->index);
+}
+
+/* Along a Z curve through the box of all receivers. */
+static enum result sort(struct receivers *receivers, struct error *error) {
+  double low[3], high[3];
+  struct place *places = malloc(((size_t)receivers->count + 1) * sizeof *places);
+  if (!places) return result_fail(error, RESULT_MEMORY, "out of memory");
+  for (int c = 0; c < 3; ++c) {
+    low[c] = INFINITY;
+    high[c] = -INFINITY;
+    for (int k = 0; k < receivers->count; ++k) {
+      low[c] = fmin(low[c], receivers->receiver[k].position[c]);
+      high[c] = fmax(high[c], receivers->receiver[k].position[c]);
+    }
+  }
+  double size = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
+  for (int k = 0; k < receivers->count; ++k) {
+    places[k] = (struct place){0, k};
+    for (int c = 0; c < 3 && size > 0 && isfinite(size); ++c) {
+      double share = (receivers->receiver[k].position[c] - low[c]) / size;
+      places[k].key |= spread((uint32_t)(share * 1023)) << c;
+    }
+  }
+  qsort(places, (size_t)receivers->count, sizeof *places, compare);
+  for (int k = 0; k < receivers->count; ++k) receivers->order[k] = places[k].index;
+  free(places);
+  return RESULT_OK;
+}
+
+enum result receiver_text_read(FILE *in, int most, struct receivers *receivers,
+                               struct error *error) {
+  if (receivers->room < most) {
+    receivers->receiver = calloc((size_t)most, sizeof *receivers->receiver);
+    receivers->order = calloc((size_t)most, sizeof *receivers->order);
+    if (!receivers->receiver || !receivers->order)
+      return result_fail(error, RESULT_MEMORY, "out of memory");
+    receivers->room = most;
+  }
+  enum result result = RESULT_OK;
+  char *line = NULL;
+  size_t room = 0;
+  receivers->count = 0;
+  while (result == RESULT_OK && receivers->count < most) {
+    if (getline(&line, &room, in) < 0) {
+      if (!feof(in)) result = result_fail(error, RESULT_IO, "stdin: %s", strerror(errno));
+      break;
+    }
+    ++receivers->line;
+    const char *start = line + strspn(line, WORDS_BLANKS);
+    if (*start && *start != '#') result = add(receivers, start, error);
+  }
+  free(line);
+  return result == RESULT_OK ? sort(receivers, error) : result;
+}

@@ -1,0 +1,423 @@
+/* cut_views.c - see cut_views.h. */
+#include "cut/cut_views.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/simd.h"
+
+enum { MOST = 64, PAIRS = 4 * MOST, ROWS = 4 * MOST, SLOPES = CUT_VIEWS_NODES * MOST };
+
+/* Two st samples beside each other in one view along u; weights for RGB RGB and two floats more.
+ * All slopes of a view's nodes are beside each other. */
+struct cut_views {
+  simd_float8 sum;
+  int nodes;
+  int count; /* of views along v */
+  const float *rgb;
+  double scale;    /* of the sum */
+  float normal[3]; /* of the receiver, relative to the kernel at the center */
+  int pairs, slopes, rows;
+  int view[PAIRS]; /* number of its first slope */
+  size_t offset[PAIRS];
+  int first[MOST + 1]; /* rows of each view along v */
+  size_t row[ROWS];
+  float row_weight[CUT_VIEWS_NODES][ROWS];
+  float row_slope[SLOPES];
+  float slope[SLOPES + SIMD_LANES];
+  float kernel[CUT_VIEWS_NODES][SLOPES + SIMD_LANES];
+  simd_float8 weight[CUT_VIEWS_NODES][PAIRS];
+};
+
+struct cut_views *cut_views_make(void) {
+  return aligned_alloc(sizeof(simd_float8), (sizeof(struct cut_views) + sizeof(simd_float8) - 1) /
+                                                sizeof(simd_float8) * sizeof(simd_float8));
+}
+
+void cut_views_free(struct cut_views *views) {
+  free(views);
+}
+
+/* Where the nodes of a view are, in halves of it: the zeros of the polynomials that are orthogonal
+ * over a hat function. The kernel in between is the polynomial through them. */
+static const double nodes_at[CUT_VIEWS_NODES + 1][CUT_VIEWS_NODES] = {
+    [1] = {0},
+    [2] = {-0.40824829, 0.40824829},
+    [3] = {-0.63245553, 0, 0.63245553},
+    [4] = {-0.75092533, -0.26222806, 0.26222806, 0.75092533}};
+
+/* One axis, as the receiver sees it. */
+struct sees {
+  const struct light_axis *axis;
+  double foot, per_height, per_step, speed, per_speed;
+  int nodes;
+  double first[2], second; /* one node: the kernel's slope; at x it is first[0] + first[1] x */
+  double share[CUT_VIEWS_NODES][CUT_MOMENTS]; /* more: each node's polynomial */
+};
+
+/* Relative derivatives of the kernel along an axis, the second one halved. */
+static void find_bend(const struct kernel *kernel, const double at[2], int axis, double bend[2]) {
+  const double g = kernel_height(kernel, at[0], at[1]);
+  const double per_square = 1 / (1 + at[0] * at[0] + at[1] * at[1]);
+  const double n = kernel->normal[axis] / g, p = at[axis] * per_square;
+  bend[0] = n - 4 * p;
+  bend[1] = -4 * n * p - 2 * per_square + 12 * p * p;
+}
+
+static void find_slope(const struct seen_page *view, int axis, const double middle[2],
+                       struct sees *sees) {
+  const double reach = sees->axis->half * sees->per_height / 2;
+  double bends[2][2], at[2] = {middle[0], middle[1]};
+  for (int side = 0; side < 2; ++side) {
+    at[axis] = middle[axis] + (side ? reach : -reach);
+    find_bend(&view->kernel, at, axis, bends[side]);
+  }
+  sees->first[1] = (bends[1][0] - bends[0][0]) / (2 * reach);
+  sees->first[0] = (bends[1][0] + bends[0][0]) / 2 - sees->first[1] * middle[axis];
+  sees->second = (bends[0][1] + bends[1][1]) / 2;
+}
+
+/* Lagrange's polynomials, ascending. */
+static void find_shares(struct sees *sees) {
+  const double *at = nodes_at[sees->nodes];
+  for (int node = 0; node < sees->nodes; ++node) {
+    double *share = sees->share[node];
+    memset(share, 0, sizeof sees->share[node]);
+    share[0] = 1;
+    for (int other = 0; other < sees->nodes; ++other) {
+      if (other == node) continue;
+      const double per = 1 / (at[node] - at[other]);
+      for (int power = sees->nodes - 1; power >= 0; --power)
+        share[power] = ((power ? share[power - 1] : 0) - at[other] * share[power]) * per;
+    }
+  }
+}
+
+static struct sees look_along(const struct seen_page *view, int axis, int nodes,
+                              const double middle[2]) {
+  const struct light_axis *along = &view->page->axes[axis];
+  struct sees sees = {.axis = along,
+                      .foot = view->foot[axis],
+                      .per_height = 1 / view->height,
+                      .per_step = 1 / along->far_step,
+                      .nodes = nodes};
+  sees.speed = (along->kappa * view->height - 1) * sees.per_step * sees.per_height;
+  sees.per_speed = 1 / fabs(sees.speed);
+  if (nodes == 1)
+    find_slope(view, axis, middle, &sees);
+  else
+    find_shares(&sees);
+  return sees;
+}
+
+/* What the st samples weigh in a view, for each node: relative to its spacing. */
+struct weights {
+  int first, count;
+  float weight[CUT_VIEWS_NODES][CUT_TAPS];
+};
+
+/* A whole hat function, `width` wide to each side, per = 1/width. A product with a hat function of
+ * st is linear in cells of st, and bends where a sample of st is in the view: by the integrals of a
+ * hat function twice and three times. */
+static bool weigh_hat(double place, double width, double per, const double by[2], int node,
+                      struct weights *out) {
+  const int cell = (int)place, low = (int)(place - width), high = (int)(place + width);
+  const int first = low < high ? low : cell, count = high - first + 2;
+  const double up = place - cell, all = by[0], slope = by[1], turn = slope * width / 6;
+  float *sum = out->weight[node];
+  if (count > CUT_TAPS) return false;
+  out->first = first;
+  out->count = count;
+  memset(sum, 0, sizeof out->weight[node]);
+  sum[cell - first] = (float)(all * (1 - up) - turn);
+  sum[cell - first + 1] = (float)(all * up + turn);
+  for (int line = low + 1; line <= high; ++line) {
+    const double d = place - line, q = 1 - fabs(d) * per, cube = q * q * q / 6 * width;
+    const double odd = slope * cube * (1 - q / 2);
+    const float bend = (float)(all * cube + (line <= cell ? -odd : odd));
+    sum[line - 1 - first] += bend;
+    sum[line - first] -= 2 * bend;
+    sum[line + 1 - first] += bend;
+  }
+  return true;
+}
+
+/* Any view, and the slopes of its nodes. False: too many samples. */
+static bool weigh(const struct sees *sees, const struct cut_interval *view, float *slopes,
+                  struct weights *out) {
+  const struct light_axis *axis = sees->axis;
+  const int last = axis->far_count - 1;
+  const double x = (view->center - sees->foot) * sees->per_height;
+  const double width = view->half * sees->per_height;
+  const double place = (axis->kappa * view->center - x - axis->far_low) * sees->per_step - 0.5;
+  const double reach = fabs(sees->speed) * view->half;
+  const double bend[CUT_MOMENTS] = {1, (sees->first[0] + sees->first[1] * x) * width,
+                                    sees->second * width * width};
+  const bool inner = view->first > 0 && view->last < axis->near_count - 1;
+  const bool hat = inner && sees->nodes <= 2 && place - reach >= 0 && place + reach < last;
+  struct cut_taps taps;
+  const struct cut_sight sight = {.place = place,
+                                  .rate = sees->speed,
+                                  .scale = 1 / axis->near_step,
+                                  .clipped =
+                                      !(place - reach >= -0.5 && place + reach <= last + 0.5)};
+  if (!hat && !cut_taps_find(view, &sight, axis->far_count, &taps)) return false;
+  for (int node = 0; node < sees->nodes; ++node) {
+    const double *by = sees->nodes == 1 ? bend : sees->share[node];
+    slopes[node] = (float)(x + nodes_at[sees->nodes][node] * width);
+    const double hats[2] = {by[0] + by[2] / 6, sees->speed < 0 ? -by[1] : by[1]};
+    if (hat && !weigh_hat(place, reach, sees->per_speed * view->per_half, hats, node, out))
+      return false;
+    if (hat) continue;
+    out->first = taps.first;
+    out->count = taps.count;
+    for (int k = 0; k < taps.count; ++k)
+      out->weight[node][k] = taps.moment[0][k] * (float)by[0] + taps.moment[1][k] * (float)by[1] +
+                             taps.moment[2][k] * (float)by[2] + taps.moment[3][k] * (float)by[3];
+  }
+  return true;
+}
+
+static bool weigh_columns(const struct cut_tree *tree, const struct seen_page *view,
+                          const struct sees *sees, struct cut_views *out) {
+  const struct cut_interval *interval = tree->axes[0].level[tree->levels - 1];
+  struct weights weights = {0};
+  out->pairs = out->slopes = 0;
+  for (int i = 0; i < sees->axis->near_count; ++i, out->slopes += sees->nodes) {
+    if (!weigh(sees, &interval[i], out->slope + out->slopes, &weights)) return false;
+    const size_t from = seen_page_offset(view, 0, i, weights.first);
+    for (int k = 0; k < weights.count; k += 2, ++out->pairs) {
+      if (out->pairs == PAIRS) return false;
+      for (int node = 0; node < sees->nodes; ++node) {
+        const float *weight = weights.weight[node] + k, a = weight[0];
+        const float b = k + 1 < weights.count ? weight[1] : 0;
+        out->weight[node][out->pairs] = (simd_float8){a, a, a, b, b, b};
+      }
+      out->view[out->pairs] = out->slopes;
+      out->offset[out->pairs] = from + 3 * (size_t)k;
+    }
+  }
+  if (out->pairs % 2) {
+    out->view[out->pairs] = 0;
+    out->offset[out->pairs] = 0;
+    for (int node = 0; node < sees->nodes; ++node) out->weight[node][out->pairs] = (simd_float8){0};
+    ++out->pairs;
+  }
+  for (int k = 0; k < SIMD_LANES; ++k) out->slope[out->slopes + k] = 0;
+  return true;
+}
+
+static bool weigh_rows(const struct cut_tree *tree, const struct seen_page *view,
+                       const struct sees *sees, struct cut_views *out) {
+  const struct cut_interval *interval = tree->axes[1].level[tree->levels - 1];
+  const size_t stride = 3 * (size_t)slab_width(&view->page->slab);
+  struct weights weights = {0};
+  out->rows = out->first[0] = 0;
+  for (int j = 0; j < sees->axis->near_count; ++j) {
+    if (!weigh(sees, &interval[j], out->row_slope + sees->nodes * j, &weights)) return false;
+    if (out->rows + weights.count > ROWS) return false;
+    const size_t from = stride * (size_t)(j * sees->axis->far_count + weights.first);
+    for (int l = 0; l < weights.count; ++l, ++out->rows) {
+      out->row[out->rows] = from + stride * (size_t)l;
+      for (int node = 0; node < sees->nodes; ++node)
+        out->row_weight[node][out->rows] = weights.weight[node][l];
+    }
+    out->first[j + 1] = out->rows;
+  }
+  return true;
+}
+
+/* The kernel at a row of views: at all nodes. */
+SIMD_INLINE void find_kernel(struct cut_views *views, int view) {
+  const float *n = views->normal;
+  for (int node = 0; node < views->nodes; ++node) {
+    const float y = views->row_slope[views->nodes * view + node];
+    const float rest = n[1] * y - n[2], square = 1 + y * y;
+    for (int k = 0; k < views->slopes; k += SIMD_LANES) {
+      simd_float8 x = SIMD_LOAD(simd_floats8, views->slope + k), value = x * x + square;
+      value = (x * n[0] + rest) / (value * value);
+      memcpy(views->kernel[node] + k, &value, sizeof value);
+    }
+  }
+}
+
+/* sum += what is seen of a pair, at one node along v. */
+SIMD_INLINE void add_pair(const struct cut_views *views, int pair, int node, int nodes,
+                          const simd_float8 *seen, simd_float8 *sum) {
+  const float *kernel = views->kernel[node] + views->view[pair];
+  simd_float8 weight = views->weight[0][pair] * kernel[0];
+  for (int other = 1; other < nodes; ++other) weight += views->weight[other][pair] * kernel[other];
+  *sum += *seen * weight;
+}
+
+/* `count` rows of st samples of a row of views: like `nodes`, a constant where it matters. Two
+ * pairs at a time. */
+SIMD_INLINE void sum_rows(struct cut_views *views, int first, int count, int nodes) {
+  simd_float8 sum = views->sum;
+  for (int k = 0; k < views->pairs; k += 2) {
+    simd_float8 one[CUT_VIEWS_NODES] = {{0}}, two[CUT_VIEWS_NODES] = {{0}};
+    for (int l = first; l < first + count; ++l) {
+      const float *row = views->rgb + views->row[l];
+      const simd_float8 a = SIMD_LOAD(simd_floats8, row + views->offset[k]);
+      const simd_float8 b = SIMD_LOAD(simd_floats8, row + views->offset[k + 1]);
+      for (int node = 0; node < nodes; ++node) {
+        one[node] += a * views->row_weight[node][l];
+        two[node] += b * views->row_weight[node][l];
+      }
+    }
+    for (int node = 0; node < nodes; ++node) {
+      add_pair(views, k, node, nodes, &one[node], &sum);
+      add_pair(views, k + 1, node, nodes, &two[node], &sum);
+    }
+  }
+  views->sum = sum;
+}
+
+SIMD_INLINE void sum_row_body(struct cut_views *views, int view) {
+  const int first = views->first[view], count = views->first[view + 1] - first;
+  find_kernel(views, view);
+  if (views->nodes == 1 && count == 2)
+    sum_rows(views, first, 2, 1);
+  else if (views->nodes == 1)
+    sum_rows(views, first, count, 1);
+  else if (views->nodes == 2)
+    sum_rows(views, first, count, 2);
+  else if (views->nodes == 3)
+    sum_rows(views, first, count, 3);
+  else
+    sum_rows(views, first, count, 4);
+}
+
+SIMD_DISPATCH(sum_row, (struct cut_views * views, int view), (views, view))
+
+static void find_middle(const struct seen_page *view, double middle[2]) {
+  for (int axis = 0; axis < 2; ++axis) middle[axis] = -view->foot[axis] / view->height;
+}
+
+bool cut_views_prepare(const struct cut_tree *tree, const struct seen_page *view, int nodes,
+                       struct cut_views *views) {
+  const struct light_axis *axes = view->page->axes;
+  double middle[2];
+  find_middle(view, middle);
+  const struct sees u = look_along(view, 0, nodes, middle), v = look_along(view, 1, nodes, middle);
+  if (!weigh_columns(tree, view, &u, views) || !weigh_rows(tree, view, &v, views)) return false;
+  const double g = kernel_height(&view->kernel, middle[0], middle[1]);
+  for (int c = 0; c < 3; ++c) views->normal[c] = (float)(view->kernel.normal[c] / g);
+  views->nodes = nodes;
+  views->count = axes[1].near_count;
+  views->rgb = view->page->slab.rgb;
+  views->scale = g * axes[0].near_step * axes[1].near_step * u.per_height * u.per_height;
+  views->sum = (simd_float8){0};
+  return true;
+}
+
+void cut_views_sum(struct cut_views *const *views, int count) {
+  bool more = true;
+  for (int view = 0; more; ++view) {
+    more = false;
+    for (int k = 0; k < count; ++k) {
+      if (view >= views[k]->count) continue;
+      sum_row(views[k], view);
+      more = true;
+    }
+  }
+}
+
+void cut_views_light(const struct cut_views *views, double rgb[3]) {
+  for (int c = 0; c < 3; ++c) rgb[c] = (double)(views->sum[c] + views->sum[3 + c]) * views->scale;
+}
+
+/* ---- What it costs and how exact it is ---- */
+
+/* What the kernel's slope leaves out, in units of its change over a view and over the aperture. */
+static const double view_order = 0.5, aperture_order = 0.15;
+/* From a view's size over its distance on, squared, at which the slope in the middle of the
+ * aperture says nothing of it. */
+static const double steep = 0.25;
+static const double rounding = 3e-6, nodes_rounding = 3e-5;
+
+/* Slopes between which the aperture is; returns the square of the distance to its nearest point, in
+ * units of the height. */
+static double find_ends(const struct seen_page *view, double low[2], double high[2]) {
+  double square = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double half = view->page->axes[axis].half, foot = view->foot[axis];
+    low[axis] = (-half - foot) / view->height;
+    high[axis] = (half - foot) / view->height;
+    const double nearest = low[axis] > 0 ? low[axis] : high[axis] < 0 ? high[axis] : 0;
+    square += nearest * nearest;
+  }
+  return square;
+}
+
+/* Slopes are in single precision: what that makes of the height over the tangent plane. */
+static double slope_rounding(const struct seen_page *view, const double low[2],
+                             const double high[2]) {
+  double range[2], far = 1;
+  kernel_heights(&view->kernel, low, high, range);
+  for (int axis = 0; axis < 2; ++axis) far = hypot(far, fmax(fabs(low[axis]), fabs(high[axis])));
+  return range[0] > 0 ? 2e-7 * far / range[0] : INFINITY;
+}
+
+/* With one node and the kernel's slope. */
+static double slope_error(const struct seen_page *view) {
+  const struct light_axis *axes = view->page->axes;
+  const double *n = view->kernel.normal;
+  double middle[2], low[2], high[2], error = rounding;
+  const double nearest = find_ends(view, low, high);
+  find_middle(view, middle);
+  error += slope_rounding(view, low, high);
+  const double square = 1 + middle[0] * middle[0] + middle[1] * middle[1];
+  const double tilt =
+      sqrt(n[0] * n[0] + n[1] * n[1]) / kernel_height(&view->kernel, middle[0], middle[1]);
+  const double bend = tilt + 2 / sqrt(square);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double step = axes[axis].near_step / view->height, half = axes[axis].half / view->height;
+    const double wide = fabs(axes[axis].kappa * view->height - 1) * step / axes[axis].far_step;
+    error += bend * bend * step * (view_order * step + aperture_order * half * fmin(wide, 1));
+    if (step * step > steep * nearest) error = INFINITY;
+  }
+  return error;
+}
+
+/* What polynomials through the nodes leave out: of the kernel's part 1/r^4, whose n-th derivative
+ * is about (n + 1)!/r^n, and of that times its height over the tangent plane. */
+static double nodes_error(const struct seen_page *view, int nodes) {
+  static const double order[CUT_VIEWS_NODES + 1] = {0, 0, 1, 0.8, 0.6};
+  const struct light_axis *axes = view->page->axes;
+  double low[2], high[2], range[2], error = nodes_rounding;
+  const double square = find_ends(view, low, high);
+  error += slope_rounding(view, low, high);
+  kernel_heights(&view->kernel, low, high, range);
+  if (!(range[0] > 0)) return INFINITY;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double step = axes[axis].near_step / view->height, part = step / sqrt(square);
+    const double tilt = fabs(view->kernel.normal[axis]) * step / range[0];
+    error += order[nodes] * pow(part, nodes - 1) * (part + tilt);
+  }
+  return error;
+}
+
+int cut_views_nodes(const struct seen_page *view, double tolerance, double *error) {
+  const struct light_axis *axes = view->page->axes;
+  if (axes[0].near_count > MOST || axes[1].near_count > MOST || !(view->height > 0)) return 0;
+  for (int nodes = 1; nodes <= CUT_VIEWS_NODES; ++nodes) {
+    *error = nodes == 1 ? slope_error(view) : nodes_error(view, nodes);
+    if (*error <= tolerance) return nodes;
+  }
+  return 0;
+}
+
+double cut_views_price(const struct seen_page *view, int nodes) {
+  static const double fixed = 200, view_price = 20, pair_price = 1.2;
+  const struct light_axis *axes = view->page->axes;
+  double samples = 1, views = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double wide = fabs(axes[axis].kappa * view->height - 1) / view->height *
+                        axes[axis].near_step / axes[axis].far_step;
+    samples *= (2 + 2 * wide) * axes[axis].near_count;
+    views += axes[axis].near_count;
+  }
+  return fixed + view_price * views + nodes * pair_price * samples / 2;
+}

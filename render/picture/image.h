@@ -1,0 +1,59 @@
+/* image.h - a picture of the scene: what comes along N x N rays a pixel, averaged.
+ *
+ * Rays stand on a regular grid in the pixel (one: in its middle). Tiles of 8 x 8 pixels are
+ * independent pieces of work, so the same picture comes out whatever the threads. */
+#ifndef IMAGE_H
+#define IMAGE_H
+
+#include <stdbool.h>
+
+#include "base/tiles.h"
+#include "file/slab_exr.h"
+#include "gather/gather.h"
+#include "gl/gl_sum.h"
+#include "picture/shade.h"
+#include "scene/camera.h"
+
+enum { IMAGE_TILE = 8, IMAGE_MOST_SIZE = 65536, IMAGE_MOST_SAMPLES = 256 };
+
+struct image_settings {
+  struct shade shade;
+  struct camera camera;
+  struct gather_settings gather;
+  const struct gl_sum_settings *gl; /* for the method gl, which takes the place of `gather` */
+  int width, height;                /* 1..IMAGE_MOST_SIZE */
+  int samples;                      /* N, 1..IMAGE_MOST_SAMPLES */
+  int threads;                      /* >= 1 */
+  tiles_progress *progress;         /* may be NULL */
+  void *progress_context;
+  double until; /* on progress_now's clock; 0: as long as it takes */
+};
+
+/* What came out. */
+struct image_report {
+  struct gather_counts counts;
+  int passes;
+  double error;                           /* the largest predicted relative error in the picture */
+  double worst_tolerance, best_tolerance; /* with which its tiles were gathered */
+  bool late;                              /* the first pass alone took longer than allowed */
+};
+
+/* Allocates and fills the picture and its errors; picture_free frees it.
+ *
+ * With a time to end, the whole picture is first made with a tolerance of 0.3, then tile by
+ * tile, those with the largest errors first, with a tenth of that, and so on until the time
+ * is over or the tolerance asked for is reached everywhere. The first pass is always finished.
+ * Edges of shadows follow: to about half the tolerance of a pass. */
+enum result image_render(const struct image_settings *settings, struct picture *picture,
+                         struct image_report *report, struct error *error);
+
+/* Of image_gl.c: the same by the method gl; image_render calls it. Allocates nothing in the
+ * picture. */
+enum result image_render_gl(const struct image_settings *settings, struct picture *picture,
+                            struct image_report *report, struct error *error);
+
+/* Ray number `sample` of a pixel. */
+void image_trace(const struct image_settings *settings, int x, int y, int sample,
+                 struct shade_hit *hit);
+
+#endif

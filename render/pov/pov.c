@@ -1,0 +1,258 @@
+/* pov.c - see pov.h. */
+#include "pov/pov.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "base/output.h"
+#include "base/sdl.h"
+#include "base/vector.h"
+
+/* As a word of a shell. */
+static void print_word(const char *text, FILE *out) {
+  putc('\'', out);
+  for (; *text; ++text) {
+    if (*text == '\'')
+      fputs("'\\''", out);
+    else
+      putc((unsigned char)*text < ' ' ? '?' : *text, out);
+  }
+  putc('\'', out);
+}
+
+static void print_vector(const double v[3], FILE *out) {
+  fprintf(out, "<%.15g, %.15g, %.15g>", v[0], v[1], v[2]);
+}
+
+static void print_header(const char *path, const struct pov_view *view, FILE *out) {
+  fputs("// Made by: ", out);
+  sdl_comment(view->command, out);
+  fputs("\n// Render it in the folder where that ran, by\n//   povray +I", out);
+  print_word(path, out);
+  fprintf(out,
+          " +W%d +H%d -A +FE +Oview.exr -D\n"
+          "// The picture then holds radiances, as that of `renderslab image' does.\n"
+          "// The lamps light the scene, but are not seen in it.\n"
+          "#version 3.7;\n"
+          "global_settings { assumed_gamma 1 ambient_light 0 }\n",
+          view->width, view->height);
+  fputs("background { rgb ", out);
+  print_vector(view->background, out);
+  fputs(" }\n\n", out);
+}
+
+/* Sides of the image plane at distance 1: rays pass the middles of pixels, as ours do. */
+static void print_camera(const struct pov_view *view, FILE *out) {
+  double forward[3], right[3], up[3];
+  camera_axes(&view->camera, forward, right, up);
+  double width = 2 * tan(view->camera.fov * M_PI / 360);
+  double height = width * view->height / view->width;
+  for (int c = 0; c < 3; ++c) {
+    right[c] *= width;
+    up[c] *= height;
+  }
+  fprintf(out, "camera { // %.15g degrees wide\n  location ", view->camera.fov);
+  print_vector(view->camera.from, out);
+  fputs("\n  direction ", out);
+  print_vector(forward, out);
+  fputs("\n  right ", out);
+  print_vector(right, out);
+  fputs("\n  up ", out);
+  print_vector(up, out);
+  fputs("\n}\n\n", out);
+}
+
+static double mean(const double rgb[3]) {
+  return (rgb[0] + rgb[1] + rgb[2]) / 3;
+}
+
+static bool grey(const double rgb[3]) {
+  return rgb[0] == rgb[1] && rgb[1] == rgb[2];
+}
+
+static bool black(const double rgb[3]) {
+  return rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0;
+}
+
+/* What POV-Ray calls a kind of image; NULL for one that it does not read. Those of 8 bits
+ * hold sRGB values. */
+static const char *image_kind(const char *path, bool *srgb) {
+  static const struct {
+    const char *suffix, *kind;
+    bool srgb;
+  } kinds[] = {{".png", "png", true},  {".jpg", "jpeg", true},  {".jpeg", "jpeg", true},
+               {".tga", "tga", true},  {".bmp", "bmp", true},   {".gif", "gif", true},
+               {".tif", "tiff", true}, {".tiff", "tiff", true}, {".ppm", "ppm", true},
+               {".exr", "exr", false}, {".hdr", "hdr", false}};
+  const char *suffix = strrchr(path, '.');
+  for (size_t k = 0; suffix && k < sizeof kinds / sizeof *kinds; ++k)
+    if (!strcasecmp(suffix, kinds[k].suffix)) {
+      *srgb = kinds[k].srgb;
+      return kinds[k].kind;
+    }
+  return NULL;
+}
+
+/* The pigment, and what diffuse must be for it; textures are multiplied by one number only. */
+static double print_pigment(const struct scene *scene, const struct scene_material *material,
+                            FILE *out) {
+  const char *path = material->texture >= 0 ? scene->textures[material->texture].path : NULL;
+  bool srgb = false;
+  const char *kind = path ? image_kind(path, &srgb) : NULL;
+  if (!kind) {
+    fputs("pigment { rgb ", out);
+    print_vector(material->diffuse, out);
+    fputs(" }", out);
+    return 1;
+  }
+  fprintf(out, "pigment { uv_mapping image_map { %s ", kind);
+  sdl_string(path, out);
+  fprintf(out, " %sinterpolate 2 } }", srgb ? "gamma srgb " : "");
+  return mean(material->diffuse);
+}
+
+/* A surface that lights and is lit is the mean of one of either kind, each twice as strong. */
+static void print_texture(const struct scene *scene, const struct scene_material *material,
+                          FILE *out) {
+  bool gloss = material->shininess > 0 && !black(material->specular);
+  bool shines = !black(material->emission);
+  double twice = shines ? 2 : 1;
+  fputs("    texture { ", out);
+  if (shines) fputs("average texture_map {\n      [1 ", out);
+  double diffuse = print_pigment(scene, material, out);
+  fprintf(out, " finish { ambient 0 diffuse %.15g", twice * diffuse);
+  if (gloss)
+    fprintf(out, " specular %.15g roughness %.15g", twice * mean(material->specular),
+            1 / material->shininess);
+  fputs(" }", out);
+  if (shines) {
+    fputs("]\n      [1 pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb ", out);
+    double emission[3];
+    for (int c = 0; c < 3; ++c) emission[c] = twice * material->emission[c];
+    print_vector(emission, out);
+    fputs(" }] }", out);
+  }
+  fputs(" }", out);
+}
+
+/* What is lost of a material; NULL for nothing. */
+static const char *loss(const struct scene *scene, const struct scene_material *material) {
+  bool srgb;
+  bool textured = material->texture >= 0;
+  if (textured && !image_kind(scene->textures[material->texture].path, &srgb))
+    return "POV-Ray does not read its texture: left out";
+  if (textured && !grey(material->diffuse))
+    return "POV-Ray multiplies a texture by one number: the mean of the diffuse colour";
+  if (material->shininess > 0 && !grey(material->specular))
+    return "POV-Ray's highlights have one amount: the mean of the specular colour";
+  return NULL;
+}
+
+static void print_textures(const struct scene *scene, char note[256], FILE *out) {
+  fprintf(out, "  texture_list { %d,\n", scene->material_count);
+  for (int k = 0; k < scene->material_count; ++k) {
+    const struct scene_material *material = &scene->materials[k];
+    const char *lost = loss(scene, material);
+    fputs("    // ", out);
+    sdl_comment(material->name, out);
+    if (lost) {
+      fprintf(out, "\n    // %s", lost);
+      if (!*note) snprintf(note, 256, "material %s: %s", material->name, lost);
+    }
+    putc('\n', out);
+    print_texture(scene, material, out);
+    fputs(k + 1 < scene->material_count ? ",\n" : "\n", out);
+  }
+  fputs("  }\n", out);
+}
+
+static void print_list(const char *name, size_t count, const double (*vectors)[3], FILE *out) {
+  fprintf(out, "  %s { %zu,\n", name, count);
+  for (size_t k = 0; k < count; ++k)
+    fprintf(out, "    <%.9g, %.9g, %.9g>%s\n", vectors[k][0], vectors[k][1], vectors[k][2],
+            k + 1 < count ? "," : "");
+  fputs("  }\n", out);
+}
+
+static void print_mesh(const struct scene *scene, char note[256], FILE *out) {
+  bool textured = false;
+  for (int k = 0; k < scene->material_count; ++k) textured |= scene->materials[k].texture >= 0;
+  fputs("mesh2 {\n", out);
+  print_list("vertex_vectors", scene->vertices, (const double(*)[3])scene->position, out);
+  print_list("normal_vectors", scene->vertices, (const double(*)[3])scene->normal, out);
+  if (textured) {
+    fprintf(out, "  uv_vectors { %zu,\n", scene->vertices);
+    for (size_t k = 0; k < scene->vertices; ++k)
+      fprintf(out, "    <%.9g, %.9g>%s\n", scene->uv[k][0], scene->uv[k][1],
+              k + 1 < scene->vertices ? "," : "");
+    fputs("  }\n", out);
+  }
+  print_textures(scene, note, out);
+  fprintf(out, "  face_indices { %zu,\n", scene->triangles);
+  for (size_t k = 0; k < scene->triangles; ++k) {
+    const int *corner = scene->corners[k];
+    fprintf(out, "    <%d, %d, %d>, %d%s\n", corner[0], corner[1], corner[2], scene->material[k],
+            k + 1 < scene->triangles ? "," : "");
+  }
+  fputs("  }\n}\n\n", out);
+}
+
+static void print_includes(const struct pov_includes *includes, FILE *out) {
+  for (int k = 0; k < includes->count; ++k) {
+    const struct pov_include *include = &includes->list[k];
+    fprintf(out, "#declare %s_Sheet_File = ", include->name);
+    sdl_string(include->image, out);
+    fputs(";\n#include ", out);
+    sdl_string(include->path, out);
+    putc('\n', out);
+  }
+  putc('\n', out);
+}
+
+/* The macro takes the scale: POV-Ray does not scale lights. */
+static void print_light(const struct light *light, const char *name, FILE *out) {
+  double scale = vector_length(light->matrix[0]);
+  fprintf(out, "object { %s_Canned(%.15g, %.15g)\n  matrix <", name, scale, light->gain);
+  for (int row = 0; row < 4; ++row)
+    for (int c = 0; c < 3; ++c)
+      fprintf(out, "%.15g%s", light->matrix[row][c] / (row < 3 ? scale : 1),
+              row == 3 && c == 2 ? "> }\n" : ", ");
+}
+
+static void print_scene(const char *path, const struct pov_view *view, char note[256], FILE *out) {
+  print_header(path, view, out);
+  print_includes(view->includes, out);
+  print_camera(view, out);
+  for (int k = 0; k < view->light_count; ++k) {
+    int include = view->includes->of_light[k];
+    print_light(&view->lights[k], view->includes->list[include].name, out);
+  }
+  putc('\n', out);
+  print_mesh(view->scene, note, out);
+}
+
+enum result pov_write(const char *path, const struct pov_view *view, char note[256],
+                      struct error *error) {
+  struct output output = {0};
+  note[0] = 0;
+  enum result result = output_begin(&output, path, error);
+  if (result != RESULT_OK) return result;
+  int fd = dup(output.fd);
+  FILE *out = fd >= 0 ? fdopen(fd, "w") : NULL;
+  if (out) {
+    print_scene(path, view, note, out);
+    int failed = ferror(out);
+    if (fclose(out) != 0 || failed)
+      result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
+  } else {
+    result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
+    if (fd >= 0) close(fd);
+  }
+  if (result == RESULT_OK) result = output_commit(&output, error);
+  output_abandon(&output);
+  return result;
+}

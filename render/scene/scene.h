@@ -1,0 +1,85 @@
+/* scene.h - a mesh scene in POV-Ray's coordinates: left-handed, y up.
+ *
+ * OBJ+MTL, glTF (.gltf, .glb) and PLY by assimp; x and y are kept and z is mirrored, as is
+ * usual when such meshes are brought to POV-Ray. Triangles are wound so that edge01 x edge02,
+ * by components, points out where the file's did. Node transforms are applied; polygons are
+ * triangulated; lines and points are left out.
+ *
+ * Materials: diffuse is the reflectance (OBJ's Kd, glTF's base colour times 1 - metallic):
+ * a surface shows diffuse E/pi. specular and shininess mean what OBJ's Ks and Ns and
+ * POV-Ray's `specular Ks roughness 1/Ns` mean: light of radiance L from the solid angle
+ * d omega adds Ks L (N.H)^Ns d omega / pi, H halfway between light and eye, without a cosine.
+ * glTF: Ns = 2/roughness^4 - 2 within 1..10000, Ks = (0.04 (1 - metallic) + base metallic)
+ * (Ns + 2)/8, so that a highlight seen along the normal reflects no more than the Fresnel
+ * reflectance there. PLY knows no materials: its surfaces are white, its colours unread.
+ *
+ * All surfaces are opaque and two-sided; illumination models, transparency, bump and normal
+ * maps, ambient colours and occlusion maps, lights and cameras are not read. Anything else
+ * that would change the picture is refused (or ignored, with `repair`): other textures than
+ * those of the diffuse colour, options of map_Kd, extensions and vertex colours of glTF. */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "file/slab_exr.h"
+
+struct scene_material {
+  char name[128];
+  double diffuse[3];
+  double specular[3];
+  double shininess;   /* 0: no highlight */
+  double emission[3]; /* radiance */
+  int texture;        /* that multiplies diffuse; -1: none */
+};
+
+struct scene_texture {
+  char *path;             /* as the mesh names it, made relative to its folder; owned.
+                             "FILE: image N" for those within a glTF file */
+  struct picture picture; /* linear RGB, row 0 at the top; owned */
+};
+
+struct scene {
+  size_t vertices, triangles;
+  double (*position)[3]; /* [vertices] */
+  double (*normal)[3];   /* [vertices], unit */
+  double (*uv)[2];       /* [vertices], v up; 0 where a mesh has none */
+  int (*corners)[3];     /* [triangles]: vertices */
+  int *material;         /* [triangles] */
+  int material_count, texture_count;
+  struct scene_material *materials;
+  struct scene_texture *textures;
+};
+
+enum scene_needs {
+  SCENE_SHAPE,   /* only what casts shadows: positions and triangles */
+  SCENE_SURFACES /* normals, materials and textures too */
+};
+
+/* Refuses, naming the file, the mesh and the triangle: NaN, triangles without area (a height
+ * below single precision) and, for SCENE_SURFACES, meshes without normals or materials. With
+ * `repair` it drops such triangles, gives flat normals and a white material instead (NaN is
+ * still refused) and says in `note` what it did, or leaves it empty.
+ *
+ * For SCENE_SHAPE, normal, uv, material, materials and textures are NULL.
+ * Textures are read by the program oiiotool: floating-point files and files that say so are
+ * linear, all others sRGB. */
+enum result scene_load(const char *path, enum scene_needs needs, bool repair, struct scene *scene,
+                       char note[256], struct error *error);
+void scene_free(struct scene *scene); /* zeroed scene allowed */
+
+/* The box around all vertices. */
+void scene_box(const struct scene *scene, double low[3], double high[3]);
+
+/* The diffuse reflectance of a point of a triangle: the material's, times its texture
+ * (bilinear, repeated) at barycentric `share`. */
+void scene_diffuse(const struct scene *scene, size_t triangle, const double share[2],
+                   double rgb[3]);
+
+/* The interpolated unit normal and the position there; the geometric normal is by the
+ * triangle's corners, on the side of the interpolated one. */
+void scene_point(const struct scene *scene, size_t triangle, const double share[2],
+                 double position[3], double normal[3], double geometric[3]);
+
+#endif

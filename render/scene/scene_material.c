@@ -1,0 +1,243 @@
+/* scene_material.c - materials and their textures, see scene_load.h. */
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "file/slab_image.h"
+#include "scene/scene_load.h"
+
+/* Programs on Windows write \ between folders. */
+static char *texture_path(const struct scene_loading *loading, const char *name) {
+  char *path = scene_beside(loading->path, name);
+  if (!path || access(path, F_OK) == 0 || !strchr(name, '\\')) return path;
+  char *turned = strdup(path);
+  for (char *at = turned; at && *at; ++at)
+    if (*at == '\\') *at = '/';
+  if (turned && access(turned, F_OK) == 0) {
+    free(path);
+    return turned;
+  }
+  free(turned);
+  return path;
+}
+
+static enum result read_picture(const struct scene_loading *loading,
+                                const struct aiTexture *embedded, struct scene_texture *texture,
+                                struct error *error) {
+  if (!embedded)
+    return slab_image_read(texture->path, NULL, 0, NULL, &texture->picture, NULL, error);
+  if (embedded->mHeight != 0 || !embedded->pcData)
+    return result_fail(error, RESULT_BAD,
+                       "%s: embeds an image as bare pixels, which is not supported; embed a PNG or "
+                       "JPEG file",
+                       loading->path);
+  return slab_image_read(texture->path, embedded->pcData, embedded->mWidth, embedded->achFormatHint,
+                         &texture->picture, NULL, error);
+}
+
+/* Loads the texture unless it is there already; *number is its number. assimp calls the
+ * images that are within the file *0, *1 and so on. */
+static enum result find_texture(const struct scene_loading *loading, const struct aiScene *from,
+                                const char *name, int *number, struct error *error) {
+  struct scene *scene = loading->scene;
+  const struct aiTexture *embedded = NULL;
+  char *path = NULL;
+  if (name[0] == '*') {
+    unsigned long k = strtoul(name + 1, NULL, 10);
+    if (k >= from->mNumTextures)
+      return result_fail(error, RESULT_BAD, "%s: has no image %lu", loading->path, k);
+    embedded = from->mTextures[k];
+    if (asprintf(&path, "%s: image %lu", loading->path, k) < 0) path = NULL;
+  } else {
+    path = texture_path(loading, name);
+  }
+  if (!path) return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
+  for (int k = 0; k < scene->texture_count; ++k)
+    if (strcmp(scene->textures[k].path, path) == 0) {
+      *number = k;
+      free(path);
+      return RESULT_OK;
+    }
+  struct scene_texture *grown =
+      reallocarray(scene->textures, (size_t)scene->texture_count + 1, sizeof *grown);
+  if (!grown) {
+    free(path);
+    return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
+  }
+  scene->textures = grown;
+  *number = scene->texture_count++;
+  grown[*number] = (struct scene_texture){.path = path};
+  return read_picture(loading, embedded, &grown[*number], error);
+}
+
+static const char *mesh_of(const struct aiScene *from, unsigned material) {
+  for (unsigned k = 0; k < from->mNumMeshes; ++k)
+    if (from->mMeshes[k]->mMaterialIndex == material) return from->mMeshes[k]->mName.data;
+  return "";
+}
+
+static void make_white(struct scene_material *material) {
+  for (int c = 0; c < 3; ++c) material->diffuse[c] = 1;
+}
+
+static enum result no_material(struct scene_loading *loading, const struct aiScene *from,
+                               unsigned number, struct scene_material *material,
+                               struct error *error) {
+  ++loading->white;
+  make_white(material);
+  if (loading->repair) return RESULT_OK;
+  const char *mesh = mesh_of(from, number);
+  if (loading->format == SCENE_OBJ && strcmp(material->name, AI_DEFAULT_MATERIAL_NAME) != 0)
+    return result_fail(error, RESULT_BAD,
+                       "%s: mesh '%s' has no material: '%s' is in none of its MTL files; --repair "
+                       "makes it white",
+                       loading->path, mesh, material->name);
+  return result_fail(error, RESULT_BAD, "%s: mesh '%s' has no material; --repair makes it white",
+                     loading->path, mesh);
+}
+
+static enum result from_mtl(struct scene_loading *loading, const struct aiScene *from,
+                            unsigned number, struct scene_material *material, struct error *error) {
+  const struct scene_mtl *mtl = scene_text_material(loading, material->name);
+  if (!mtl) return no_material(loading, from, number, material, error);
+  *material = mtl->material;
+  const double *glow = material->emission;
+  if (!mtl->has_diffuse && mtl->has_texture) {
+    make_white(material); /* the texture is all there is to its colour */
+  } else if (!mtl->has_diffuse && !(glow[0] > 0 || glow[1] > 0 || glow[2] > 0)) {
+    ++loading->white;
+    make_white(material);
+    if (!loading->repair)
+      return result_fail(error, RESULT_BAD,
+                         "%s: material '%s' has no Kd, map_Kd or Ke; --repair makes it white",
+                         loading->path, material->name);
+  }
+  if (!mtl->has_texture) return RESULT_OK;
+  return find_texture(loading, from, mtl->texture, &material->texture, error);
+}
+
+static enum result check_gltf(struct scene_loading *loading, const struct aiMaterial *source,
+                              const struct scene_material *material, double metallic,
+                              struct error *error) {
+  static const struct {
+    enum aiTextureType type;
+    const char *name;
+  } unread[] = {{aiTextureType_METALNESS, "metallic-roughness"},
+                {aiTextureType_EMISSIVE, "emissive"}};
+  enum result result = RESULT_OK;
+  for (size_t k = 0; k < sizeof unread / sizeof *unread && !result; ++k)
+    if (aiGetMaterialTextureCount(source, unread[k].type) > 0)
+      result = scene_unread(loading, error, "%s: material '%s' has a texture that is %s",
+                            loading->path, material->name, unread[k].name);
+  if (!result && metallic > 0 && material->texture >= 0)
+    result = scene_unread(loading, error,
+                          "%s: material '%s' is metallic and has a texture, also for its highlight",
+                          loading->path, material->name);
+  return result;
+}
+
+/* glTF's highlight is a microfacet one with GGX's alpha = roughness^2; (N.H)^Ns with
+ * Ns = 2/alpha^2 - 2 is Beckmann's like it. Ks makes the whole highlight, seen along the
+ * normal under an even sky, no more than the Fresnel reflectance F0 = 0.04 for dielectrics:
+ * integral of Ks/pi (N.H)^Ns d omega = 8 Ks/(Ns + 2) (1 - 2^-(Ns/2 + 1)). */
+static void set_highlight(struct scene_material *material, const double base[3], double metallic,
+                          double roughness) {
+  double alpha = roughness * roughness;
+  double shininess = fmin(fmax(2 / (alpha * alpha) - 2, 1), 1e4);
+  material->shininess = shininess;
+  for (int c = 0; c < 3; ++c)
+    material->specular[c] = (0.04 * (1 - metallic) + base[c] * metallic) * (shininess + 2) / 8;
+}
+
+static enum result from_gltf(struct scene_loading *loading, const struct aiScene *from,
+                             unsigned number, struct scene_material *material,
+                             struct error *error) {
+  const struct aiMaterial *source = from->mMaterials[number];
+  struct aiColor4D base = {1, 1, 1, 1}, glow = {0, 0, 0, 1};
+  ai_real metallic = 1, roughness = 1; /* glTF's defaults */
+  struct aiString name;
+  /* assimp puts a material of its own last, for those that have none */
+  if (number + 1 == from->mNumMaterials) return no_material(loading, from, number, material, error);
+  aiGetMaterialColor(source, AI_MATKEY_BASE_COLOR, &base);
+  aiGetMaterialColor(source, AI_MATKEY_COLOR_EMISSIVE, &glow);
+  aiGetMaterialFloatArray(source, AI_MATKEY_METALLIC_FACTOR, &metallic, NULL);
+  aiGetMaterialFloatArray(source, AI_MATKEY_ROUGHNESS_FACTOR, &roughness, NULL);
+  const double colour[3] = {(double)base.r, (double)base.g, (double)base.b};
+  const double light[3] = {(double)glow.r, (double)glow.g, (double)glow.b};
+  double factors[2] = {(double)metallic, (double)roughness};
+  if (aiGetMaterialTextureCount(source, aiTextureType_METALNESS) > 0)
+    factors[0] = 0; /* only with --repair: without the texture, better paint than metal */
+  for (int c = 0; c < 3; ++c) {
+    material->diffuse[c] = colour[c] * (1 - factors[0]);
+    material->emission[c] =
+        aiGetMaterialTextureCount(source, aiTextureType_EMISSIVE) > 0 ? 0 : light[c];
+  }
+  set_highlight(material, colour, factors[0], factors[1]);
+  enum result result = RESULT_OK;
+  if (aiGetMaterialTexture(source, aiTextureType_BASE_COLOR, 0, &name, NULL, NULL, NULL, NULL, NULL,
+                           NULL) == aiReturn_SUCCESS)
+    result = find_texture(loading, from, name.data, &material->texture, error);
+  return result ? result : check_gltf(loading, source, material, factors[0], error);
+}
+
+static enum result check(const struct scene_loading *loading, const struct scene_material *material,
+                         struct error *error) {
+  for (int c = 0; c < 3; ++c) {
+    double colours[3] = {material->diffuse[c], material->specular[c], material->emission[c]};
+    for (int k = 0; k < 3; ++k)
+      if (!(colours[k] >= 0) || !isfinite(colours[k]))
+        return result_fail(error, RESULT_BAD,
+                           "%s: material '%s' has a colour that is negative or not finite",
+                           loading->path, material->name);
+  }
+  return RESULT_OK;
+}
+
+/* What belongs to the mesh rather than to its material. */
+static enum result check_mesh(struct scene_loading *loading, const struct aiMesh *mesh,
+                              struct error *error) {
+  const struct scene_material *material = &loading->scene->materials[mesh->mMaterialIndex];
+  bool has_uv = false;
+  for (int k = 0; k < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++k)
+    has_uv |= mesh->mTextureCoords[k] != NULL;
+  if (material->texture >= 0 && !has_uv)
+    return scene_unread(loading, error, "%s: mesh '%s' has a texture without texture coordinates",
+                        loading->path, mesh->mName.data);
+  if (loading->format == SCENE_GLTF && mesh->mColors[0])
+    return scene_unread(loading, error, "%s: mesh '%s' has colours at its vertices", loading->path,
+                        mesh->mName.data);
+  return RESULT_OK;
+}
+
+enum result scene_import_materials(struct scene_loading *loading, const struct aiScene *from,
+                                   const bool *used, struct error *error) {
+  struct scene *scene = loading->scene;
+  enum result result = RESULT_OK;
+  scene->materials = calloc((size_t)from->mNumMaterials + 1, sizeof *scene->materials);
+  if (!scene->materials)
+    return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
+  scene->material_count = (int)from->mNumMaterials;
+  for (unsigned k = 0; k < from->mNumMaterials && !result; ++k) {
+    struct scene_material *material = &scene->materials[k];
+    struct aiString name = {0};
+    aiGetMaterialString(from->mMaterials[k], AI_MATKEY_NAME, &name);
+    snprintf(material->name, sizeof material->name, "%.127s", name.data);
+    material->texture = -1;
+    if (!used[k]) continue;
+    if (loading->format == SCENE_OBJ)
+      result = from_mtl(loading, from, k, material, error);
+    else if (loading->format == SCENE_GLTF)
+      result = from_gltf(loading, from, k, material, error);
+    else
+      make_white(material); /* PLY has none */
+    if (!result) result = check(loading, material, error);
+  }
+  for (unsigned k = 0; k < from->mNumMeshes && !result; ++k)
+    result = check_mesh(loading, from->mMeshes[k], error);
+  return result;
+}

@@ -1,0 +1,325 @@
+/* visible.c - see visible.h.
+ *
+ * With cells of 1/n of the rectangle's sides, n = grid * 2^levels, rays go to points of a
+ * lattice of 2n x 2n steps: cells' corners are at even steps and their middles at odd ones,
+ * and so are those of blocks of any size. A point is traced once, whoever asks. */
+#include "shadow/visible.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shadow/occlusion.h"
+
+enum { EDGE_MOST = 4096, BATCH = 256 };
+enum { UNKNOWN = 0, CLEAR, BLOCKED, ASKED };
+
+struct place {
+  int x, y; /* lattice steps */
+};
+
+struct run {
+  int low, high, since; /* cells along the row; its first row */
+};
+
+struct list {
+  void *items;
+  size_t count, room;
+};
+
+struct visible_work {
+  int cells;               /* n, for which the arrays below were made */
+  unsigned char *state;    /* [(2n+1)^2] of the lattice */
+  unsigned char *clear[2]; /* [n^2] of the cells, by rows and by columns */
+  struct run *runs[2];     /* [n/2 + 1] each */
+  struct list asked;       /* places whose state is not UNKNOWN */
+  size_t traced;           /* of those */
+  struct list blocks[2];   /* places of blocks, of this level and the next */
+};
+
+static enum result no_memory(struct error *error) {
+  return result_fail(error, RESULT_MEMORY, "out of memory for what a receiver sees of an aperture");
+}
+
+static bool append(struct list *list, struct place place) {
+  if (list->count == list->room) {
+    size_t room = list->room ? 2 * list->room : 256;
+    void *items = realloc(list->items, room * sizeof(struct place));
+    if (!items) return false;
+    list->items = items;
+    list->room = room;
+  }
+  ((struct place *)list->items)[list->count++] = place;
+  return true;
+}
+
+static struct place item(const struct list *list, size_t k) {
+  return ((const struct place *)list->items)[k];
+}
+
+static void work_free(struct visible_work *work) {
+  if (!work) return;
+  free(work->state);
+  for (int k = 0; k < 2; ++k) {
+    free(work->clear[k]);
+    free(work->runs[k]);
+    free(work->blocks[k].items);
+  }
+  free(work->asked.items);
+  free(work);
+}
+
+void visible_free(struct visible *visible) {
+  free(visible->rectangles);
+  work_free(visible->work);
+  *visible = (struct visible){0};
+}
+
+/* The arrays for n cells a side, kept from call to call. */
+static bool prepare(struct visible *visible, int cells) {
+  struct visible_work *work = visible->work;
+  if (work && work->cells == cells) return true;
+  work_free(work);
+  visible->work = work = calloc(1, sizeof *work);
+  if (!work) return false;
+  size_t n = (size_t)cells;
+  bool good = (work->state = calloc((2 * n + 1) * (2 * n + 1), 1)) != NULL;
+  for (int k = 0; k < 2; ++k) {
+    good = (work->clear[k] = malloc(n * n)) && good;
+    good = (work->runs[k] = malloc((n / 2 + 1) * sizeof *work->runs[k])) && good;
+  }
+  if (!good) {
+    work_free(work);
+    visible->work = NULL;
+    return false;
+  }
+  work->cells = cells;
+  return true;
+}
+
+static unsigned char *state_at(const struct visible_work *work, int x, int y) {
+  return &work->state[(size_t)y * (size_t)(2 * work->cells + 1) + (size_t)x];
+}
+
+static bool ask(struct visible_work *work, int x, int y) {
+  unsigned char *state = state_at(work, x, y);
+  if (*state != UNKNOWN) return true;
+  if (!append(&work->asked, (struct place){x, y})) return false;
+  *state = ASKED;
+  return true;
+}
+
+/* Exact at both ends. */
+static double coordinate(const struct visible_rectangle *whole, int axis, int step, int steps) {
+  if (step == steps) return whole->high[axis];
+  return whole->low[axis] + (whole->high[axis] - whole->low[axis]) * step / steps;
+}
+
+static void trace(const struct visible_query *query, struct visible *visible) {
+  struct visible_work *work = visible->work;
+  double points[BATCH][3];
+  bool blocked[BATCH];
+  while (work->traced < work->asked.count) {
+    size_t left = work->asked.count - work->traced;
+    int count = left < BATCH ? (int)left : BATCH;
+    for (int k = 0; k < count; ++k) {
+      struct place place = item(&work->asked, work->traced + (size_t)k);
+      double x = coordinate(&query->whole, 0, place.x, 2 * work->cells);
+      double y = coordinate(&query->whole, 1, place.y, 2 * work->cells);
+      for (int c = 0; c < 3; ++c)
+        points[k][c] = query->origin[c] + x * query->along[0][c] + y * query->along[1][c];
+    }
+    occlusion_blocked(query->occlusion, query->lifted, (const double(*)[3])points, count, blocked);
+    for (int k = 0; k < count; ++k) {
+      struct place place = item(&work->asked, work->traced + (size_t)k);
+      *state_at(work, place.x, place.y) = blocked[k] ? BLOCKED : CLEAR;
+    }
+    work->traced += (size_t)count;
+    visible->shadow_rays += (uint64_t)count;
+  }
+}
+
+/* Asks for what decides about blocks of `size` steps; cells are decided by their middles. */
+static bool ask_blocks(struct visible_work *work, const struct list *blocks, int size) {
+  bool good = true;
+  for (size_t k = 0; k < blocks->count && good; ++k) {
+    struct place at = item(blocks, k);
+    good = ask(work, at.x + size / 2, at.y + size / 2);
+    for (int corner = 0; corner < 4 && size > 2 && good; ++corner)
+      good = ask(work, at.x + (corner & 1) * size, at.y + (corner >> 1) * size);
+  }
+  return good;
+}
+
+static void mark(struct visible_work *work, struct place at, int size) {
+  size_t n = (size_t)work->cells, side = (size_t)size / 2;
+  size_t x = (size_t)at.x / 2, y = (size_t)at.y / 2;
+  for (size_t k = 0; k < side; ++k) {
+    memset(work->clear[0] + (y + k) * n + x, 1, side);
+    memset(work->clear[1] + (x + k) * n + y, 1, side);
+  }
+}
+
+/* Marks the blocks that are visible and quarters those that may be in part. Returns the
+ * number of cells marked, or -1 without memory. */
+static long decide(struct visible_work *work, const struct list *blocks, int size,
+                   struct list *quarters) {
+  long marked = 0;
+  quarters->count = 0;
+  for (size_t k = 0; k < blocks->count; ++k) {
+    struct place at = item(blocks, k);
+    unsigned char middle = *state_at(work, at.x + size / 2, at.y + size / 2);
+    bool agree = true;
+    for (int corner = 0; corner < 4 && size > 2; ++corner)
+      agree &= *state_at(work, at.x + (corner & 1) * size, at.y + (corner >> 1) * size) == middle;
+    for (int corner = 0; corner < 4 && !agree; ++corner)
+      if (!append(quarters,
+                  (struct place){at.x + (corner & 1) * size / 2, at.y + (corner >> 1) * size / 2}))
+        return -1;
+    if (!agree || middle != CLEAR) continue;
+    mark(work, at, size);
+    marked += (long)(size / 2) * (size / 2);
+  }
+  return marked;
+}
+
+static bool unanimous(const struct visible_work *work) {
+  struct place first = item(&work->asked, 0);
+  for (size_t k = 1; k < work->asked.count; ++k) {
+    struct place place = item(&work->asked, k);
+    if (*state_at(work, place.x, place.y) != *state_at(work, first.x, first.y)) return false;
+  }
+  return true;
+}
+
+/* Asks and traces for a level of blocks; false without memory. */
+static bool look(const struct visible_query *query, struct visible *visible,
+                 const struct list *blocks, int size) {
+  if (!ask_blocks(visible->work, blocks, size)) return false;
+  trace(query, visible);
+  return true;
+}
+
+static long find_levels(const struct visible_query *query, struct visible *visible) {
+  struct visible_work *work = visible->work;
+  size_t n = (size_t)work->cells;
+  struct list *blocks = &work->blocks[0], *quarters = &work->blocks[1];
+  int size = 2 * work->cells / query->grid;
+  long total = 0;
+  blocks->count = 0;
+  for (int k = 0; k < query->grid * query->grid; ++k)
+    if (!append(blocks, (struct place){k % query->grid * size, k / query->grid * size})) return -1;
+  if (!look(query, visible, blocks, size)) return -1;
+  if (unanimous(work)) /* most receivers */
+    return *state_at(work, size / 2, size / 2) == CLEAR ? (long)(n * n) : 0;
+  memset(work->clear[0], 0, n * n);
+  memset(work->clear[1], 0, n * n);
+  for (;;) {
+    long marked = decide(work, blocks, size, quarters);
+    if (marked < 0) return -1;
+    total += marked;
+    if (quarters->count == 0) return total;
+    struct list *swap = blocks;
+    blocks = quarters;
+    quarters = swap;
+    size /= 2;
+    if (!look(query, visible, blocks, size)) return -1;
+  }
+}
+
+/* Finds the visible cells; returns their number, or -1 without memory. The map of them is
+ * made only where some are visible and some are not. */
+static long find_cells(const struct visible_query *query, struct visible *visible) {
+  struct visible_work *work = visible->work;
+  work->asked.count = work->traced = 0;
+  long total = find_levels(query, visible);
+  for (size_t k = 0; k < work->asked.count; ++k) {
+    struct place place = item(&work->asked, k);
+    *state_at(work, place.x, place.y) = UNKNOWN;
+  }
+  return total;
+}
+
+static bool emit(const struct visible_query *query, struct visible *visible, int axis,
+                 const struct run *run, int until) {
+  int steps = visible->work->cells;
+  struct visible_rectangle r;
+  r.low[axis] = coordinate(&query->whole, axis, run->low, steps);
+  r.high[axis] = coordinate(&query->whole, axis, run->high, steps);
+  r.low[1 - axis] = coordinate(&query->whole, 1 - axis, run->since, steps);
+  r.high[1 - axis] = coordinate(&query->whole, 1 - axis, until, steps);
+  if (!(r.low[0] < r.high[0] && r.low[1] < r.high[1])) return true; /* rounded away */
+  if (visible->count == visible->room) {
+    int room = visible->room ? 2 * visible->room : 64;
+    void *grown = realloc(visible->rectangles, (size_t)room * sizeof *visible->rectangles);
+    if (!grown) return false;
+    visible->rectangles = grown;
+    visible->room = room;
+  }
+  visible->rectangles[visible->count++] = r;
+  return true;
+}
+
+static int find_runs(const unsigned char *row, int cells, int since, struct run *runs) {
+  int count = 0;
+  for (int x = 0; x < cells;) {
+    const unsigned char *low = memchr(row + x, 1, (size_t)(cells - x));
+    if (!low) break;
+    x = (int)(low - row);
+    const unsigned char *high = memchr(low, 0, (size_t)(cells - x));
+    int end = high ? (int)(high - row) : cells;
+    runs[count++] = (struct run){x, end, since};
+    x = end;
+  }
+  return count;
+}
+
+/* Runs of visible cells along the axis, and equal runs of successive rows as one rectangle.
+ * Counts them; writes them too where `query` is given. -1 without memory. */
+static int merge(const struct visible_query *query, struct visible *visible, int axis) {
+  struct visible_work *work = visible->work;
+  int n = work->cells, open_count = 0, total = 0;
+  struct run *open = work->runs[0], *next = work->runs[1];
+  for (int y = 0; y <= n; ++y) {
+    const unsigned char *row = work->clear[axis] + (size_t)y * (size_t)n;
+    if (y > 0 && y < n && memcmp(row, row - n, (size_t)n) == 0) continue;
+    int count = y < n ? find_runs(row, n, y, next) : 0;
+    for (int k = 0, m = 0; k < open_count; ++k) {
+      while (m < count && next[m].low < open[k].low) ++m;
+      if (m < count && next[m].low == open[k].low && next[m].high == open[k].high) {
+        next[m].since = open[k].since;
+      } else {
+        ++total;
+        if (query && !emit(query, visible, axis, &open[k], y)) return -1;
+      }
+    }
+    struct run *swap = open;
+    open = next;
+    next = swap;
+    open_count = count;
+  }
+  return total;
+}
+
+enum result visible_find(const struct visible_query *query, struct visible *visible,
+                         struct error *error) {
+  const struct visible_rectangle *whole = &query->whole;
+  visible->count = 0;
+  if (query->grid < 1 || query->edge < query->grid || query->edge > EDGE_MOST)
+    return result_fail(error, RESULT_BAD,
+                       "shadow grid %d and edge %d: 1 <= grid <= edge <= %d is possible",
+                       query->grid, query->edge, EDGE_MOST);
+  if (!(whole->low[0] < whole->high[0] && whole->low[1] < whole->high[1])) return RESULT_OK;
+  int cells = query->grid;
+  while (cells < query->edge) cells *= 2;
+  if (!prepare(visible, cells)) return no_memory(error);
+  long found = find_cells(query, visible);
+  if (found < 0) return no_memory(error);
+  if (found == 0) return RESULT_OK;
+  if (found == (long)cells * cells) {
+    const struct run all = {0, cells, 0};
+    return emit(query, visible, 0, &all, cells) ? RESULT_OK : no_memory(error);
+  }
+  int axis = merge(NULL, visible, 0) <= merge(NULL, visible, 1) ? 0 : 1;
+  return merge(query, visible, axis) < 0 ? no_memory(error) : RESULT_OK;
+}
