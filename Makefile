@@ -3,7 +3,7 @@
 # $(B). A command line may set config, CC, CFLAGS, LDFLAGS, prefix, DESTDIR,
 # SETUP=no, V=1 (show every command) and T (see `make help`).
 
-VERSION := $(shell sed -n 's,^.define CANNED_VERSION "\(.*\)",\1,p' bakeslab/cli/cli.h)
+VERSION := $(shell sed -n 's,^.define CANNED_VERSION "\(.*\)",\1,p' bakeslab/base/version.h)
 config ?= release
 B := build/$(config)
 V :=

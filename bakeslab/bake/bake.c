@@ -10,6 +10,7 @@
 #include "bake/bake_provenance.h"
 #include "base/files.h"
 #include "batch/bake_rounds.h"
+#include "file/slab_file.h"
 #include "file/slab_json.h"
 #include "lamp/housing.h"
 #include "lamp/lamp_depend.h"
@@ -86,7 +87,8 @@ static enum result find_housing(const struct bake_work *work, struct bake_report
     result = bake_store_scratch(work->store, &scratch, error);
   else if (errno == ENOMEM)
     result = result_fail(error, RESULT_MEMORY, "out of memory");
-  if (*housing && !result) result = housing_parses(work->povray, *housing, scratch, error);
+  if (*housing && result == RESULT_OK)
+    result = housing_parses(work->povray, *housing, scratch, error);
   if (result == RESULT_BAD) {
     report->housing_left_out = true;
     free(*housing);
@@ -103,21 +105,24 @@ static enum result find_housing(const struct bake_work *work, struct bake_report
 static enum result judge(const struct bake_work *work, const struct bake_state *state,
                          struct bake_report *report, struct error *error) {
   enum result result = RESULT_OK;
-  for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
+  for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
     const struct slab *page = &state->lamp.slabs[n];
     struct slab_profile profile;
-    struct slab_accuracy floor = {0};
+    struct slab_sampling sampling;
+    struct slab_accuracy accuracy = {0};
     result = slab_profile(page, &profile, error);
-    for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && !result; ++k) {
+    for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
       size_t used = strlen(report->cut_off);
       if (slab_profile_cut_off(&profile, k / 2, k % 2) > 0)
         snprintf(report->cut_off + used, sizeof report->cut_off - used, "%spage %d %s %c",
                  used ? ", " : "", n + 1, k % 2 ? "high" : "low", "uvst"[k / 2]);
     }
     slab_profile_free(&profile);
-    if (!result && work->options->tolerance > 0)
-      result = slab_accuracy_estimate(page, 1, &state->origin.resolution.distance, &floor, error);
-    if (!(floor.all <= report->error)) report->error = floor.all;
+    if (result == RESULT_OK) result = slab_json_sampling(page, &sampling, error);
+    if (result == RESULT_OK && work->options->tolerance > 0)
+      result = slab_accuracy_estimate(page, &sampling, 1, &state->origin.resolution.distance,
+                                      &accuracy, error);
+    if (!(accuracy.all <= report->error)) report->error = accuracy.all;
   }
   return result;
 }
@@ -129,19 +134,20 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
   int count = state->lamp.slab_count;
   bake_sum_noise(state->rounds.sum, work->look.gain, &state->origin.noise);
   enum result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
-  if (!result) result = find_housing(work, report, &state->origin.housing, error);
-  char *text = bake_provenance(work, &state->origin);
-  if (!result && !text) result = result_fail(error, RESULT_MEMORY, "out of memory");
-  for (int n = 0; n < count && !result; ++n) {
+  if (result == RESULT_OK) result = find_housing(work, report, &state->origin.housing, error);
+  char *text = NULL;
+  if (result == RESULT_OK) result = bake_provenance(work, &state->origin, &text, error);
+  for (int n = 0; n < count && result == RESULT_OK; ++n) {
     result = slab_json_set(&pages[n], "provenance", text, error);
-    if (!result)
+    if (result == RESULT_OK)
       result = slab_json_set(&pages[n], "samples_are",
                              options->centre ? "\"points\"" : "\"cell_means\"", error);
   }
   free(text);
-  if (!result) result = judge(work, state, report, error);
-  return result ? result
-                : slab_file_write(options->output, pages, count, options->precision, error);
+  if (result == RESULT_OK) result = judge(work, state, report, error);
+  return result != RESULT_OK
+             ? result
+             : slab_file_write(options->output, pages, count, options->precision, error);
 }
 
 /* ---- What is to be baked ---- */
@@ -154,18 +160,18 @@ static enum result read_lamp(struct bake_work *work, struct bake_state *state,
   char *scratch;
   lamp_free(&state->lamp);
   enum result result = bake_store_scratch(&state->store, &scratch, error);
-  if (!result)
+  if (result == RESULT_OK)
     result =
         lamp_try(&state->povray, &state->source, scratch, effects, work->stop, &state->lamp, error);
   free(scratch);
-  for (int n = 0; n < state->lamp.slab_count && !result; ++n) {
+  for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
     int *samples = state->lamp.slabs[n].samples;
     memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]},
            SLAB_AXES * sizeof *samples);
     result = slab_check(&state->lamp.slabs[n], error);
   }
-  if (!result) result = choose_form(options, &state->lamp, &work->look.form, error);
-  if (result) return result;
+  if (result == RESULT_OK) result = choose_form(options, &state->lamp, &work->look.form, error);
+  if (result != RESULT_OK) return result;
   work->slabs = state->lamp.slabs;
   work->look.defect_rows = state->lamp.defect_rows;
   work->look.gain = choose_gain(options, state->lamp.peak);
@@ -180,33 +186,34 @@ static enum result find_effects(struct bake_work *work, struct bake_state *state
   bool automatic = !strcmp(word, "auto"), probe = !strcmp(word, "probe");
   enum result result = RESULT_OK;
   if (automatic) result = read_lamp(work, state, NULL, error);
-  if (!result && automatic && state->lamp.needs_declared)
+  if (result == RESULT_OK && automatic && state->lamp.needs_declared)
     result = effects_parse(state->lamp.needs, "Canned_Needs", &state->effects, error);
-  else if (!result && !automatic && !probe)
+  else if (result == RESULT_OK && !automatic && !probe)
     result = effects_parse(word, "--effects", &state->effects, error);
-  else if (!result) {
+  else if (result == RESULT_OK) {
     struct effects all;
     state->origin.probed = true;
     result = effects_parse("all", "--effects", &all, error);
-    if (!result) result = read_lamp(work, state, &all, error);
-    if (!result) result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
+    if (result == RESULT_OK) result = read_lamp(work, state, &all, error);
+    if (result == RESULT_OK)
+      result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
   }
   bool known = automatic && !state->origin.probed && !effects_any(&state->effects);
-  return result || known ? result : read_lamp(work, state, &state->effects, error);
+  return result != RESULT_OK || known ? result : read_lamp(work, state, &state->effects, error);
 }
 
 static enum result prepare(struct bake_work *work, struct bake_state *state,
                            struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
   enum result result = find_effects(work, state, report, error);
-  if (!result && options->depend)
+  if (result == RESULT_OK && options->depend)
     result = lamp_depend_check(&state->lamp.reads, state->source.path, options->output,
                                options->depend, error);
-  if (!result && options->window_auto)
+  if (result == RESULT_OK && options->window_auto)
     result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
-  if (!result && options->tolerance > 0)
+  if (result == RESULT_OK && options->tolerance > 0)
     result = probe_resolution(work, state->lamp.slabs, &state->origin.resolution, report, error);
-  if (!result) result = choose_form(options, &state->lamp, &work->look.form, error);
+  if (result == RESULT_OK) result = choose_form(options, &state->lamp, &work->look.form, error);
   work->look.offsets = options->centre             ? BAKE_CENTRE
                        : bake_is_adaptive(options) ? BAKE_OWN
                                                    : BAKE_SHARED;
@@ -225,21 +232,23 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
                            .look.effects = &state.effects,
                            .stop = stop};
   enum result result = slab_file_check_target(options->output, options->precision, error);
-  if (!result) result = povray_find(options->povray, &state.povray, error);
+  if (result == RESULT_OK) result = povray_find(options->povray, &state.povray, error);
   state.povray.sandbox = options->sandbox;
-  if (!result && options->sandbox) result = sandbox_check(error);
-  if (!result) result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
-  if (!result) result = bake_store_open(options->output, options->shards > 1, &state.store, error);
-  if (!result) result = prepare(&work, &state, report, error);
-  if (!result) result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
+  if (result == RESULT_OK && options->sandbox) result = sandbox_check(error);
+  if (result == RESULT_OK)
+    result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
+  if (result == RESULT_OK)
+    result = bake_store_open(options->output, options->shards > 1, &state.store, error);
+  if (result == RESULT_OK) result = prepare(&work, &state, report, error);
+  if (result == RESULT_OK) result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   /* A shard leaves the slab to the run without --shard. */
   report->assembled = options->shards == 1;
   /* Before the slab: with an old rule, make would take the new slab for up to date. */
-  if (!result && report->assembled && options->depend)
+  if (result == RESULT_OK && report->assembled && options->depend)
     result = lamp_depend_write(&state.lamp.reads, state.source.path, options->output,
                                options->depend, error);
-  if (!result && report->assembled) result = write_slab(&work, &state, report, error);
-  bake_store_close(&state.store, !result && report->assembled);
+  if (result == RESULT_OK && report->assembled) result = write_slab(&work, &state, report, error);
+  bake_store_close(&state.store, result == RESULT_OK && report->assembled);
   bake_rounds_free(&state.rounds);
   free(state.origin.housing);
   lamp_free(&state.lamp);

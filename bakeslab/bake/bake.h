@@ -9,47 +9,8 @@
 
 #include <signal.h>
 
-#include "batch/bake_scene.h"
-#include "file/slab_file.h"
-#include "lamp/lamp.h"
-
-struct bake_options {
-  const char *lamp, *output;
-  const char *povray;           /* program */
-  bool sandbox;                 /* POV-Ray runs in one (sandbox.h) */
-  const char *const *libraries; /* Library_Path, NULL-terminated, or NULL */
-  int uv[2], st[2];
-  bool uv_free, st_free;   /* with a tolerance: these are found out */
-  int rays;                /* passes: 1 or an even number; the mean where adaptive */
-  int rays_max;            /* for the noisiest tiles */
-  bool centre;             /* one ray through each sample's centre */
-  bool uniform;            /* the same passes everywhere */
-  const char *effects;     /* "auto", "probe", "all", "none" or a list of words */
-  double effect_threshold; /* probe.h */
-  bool window_auto;        /* probe_window.h */
-  double tolerance;        /* probe_resolution.h; 0: uv[] and st[] as they are */
-  double for_distance;     /* in lamp units; 0: none */
-  double gain;             /* 0: from the probe */
-  int form;                /* an enum bake_form, or -1: the cheapest */
-  int jobs;
-  int shard, shards; /* this process bakes batches shard, shard+shards, ... */
-  enum slab_precision precision;
-  bool quiet;
-  const char *depend;  /* a rule for make goes there before the slab is written, or NULL */
-  const char *command; /* for the provenance */
-};
-
-struct bake_report {
-  double rays;           /* shot in this run */
-  int batches, found;    /* of this bake; found finished by an earlier run */
-  bool assembled;        /* false: a shard, which leaves that to the run without */
-  double cpu, probe_cpu; /* seconds of POV-Ray in this run, for the slab and before it */
-  double traced;         /* rays of all kinds, by POV-Ray's own count, of all batches */
-  int depth;             /* the deepest trace level that POV-Ray reached */
-  char cut_off[256];     /* where the light goes on beyond a page's window; or empty */
-  double error;          /* the slab's own, as slab_accuracy.h tells it; with a tolerance */
-  bool housing_left_out; /* the script's Canned_Housing needs more than itself */
-};
+#include "base/result.h"
+#include "batch/bake_options.h"
 
 /* Bakes. `stop`, set by a signal handler, ends it with RESULT_STOPPED; finished
  * batches stay in OUTPUT.partial and the next bake goes on from there. */

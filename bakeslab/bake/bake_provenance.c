@@ -1,12 +1,10 @@
 /* bake_provenance.c - see bake_provenance.h. */
 #include "bake/bake_provenance.h"
 
-#include <jansson.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdio.h>
 
-#include "cli/cli.h"
-#include "file/slab_json.h"
+#include "base/version.h"
+#include "file/json_text.h"
 
 static json_t *effects_json(const struct bake_work *work, const struct bake_origin *origin) {
   json_t *object = json_object();
@@ -22,25 +20,14 @@ static json_t *effects_json(const struct bake_work *work, const struct bake_orig
   return object;
 }
 
-/* File names on the command line may be no UTF-8, which JSON has to be. */
-static json_t *command_json(const char *command) {
-  json_t *text = json_string(command);
-  if (text) return text;
-  char *plain = strdup(command);
-  for (char *c = plain; c && *c; ++c)
-    if (*c < 0) *c = '?';
-  text = json_string(plain ? plain : "");
-  free(plain);
-  return text;
-}
-
-char *bake_provenance(const struct bake_work *work, const struct bake_origin *origin) {
+enum result bake_provenance(const struct bake_work *work, const struct bake_origin *origin,
+                            char **text, struct error *error) {
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
   const struct bake_noise *noise = &origin->noise;
-  unsigned long lost = slab_json_lost();
+  unsigned long mark = json_mark();
   json_t *object =
       json_pack("{s:o, s:s, s:s, s:o, s:s, s:f, s:f}", "command",
-                command_json(work->options->command), "tool", "bakeslab " CANNED_VERSION,
+                json_any_string(work->options->command), "tool", "bakeslab " CANNED_VERSION,
                 "renderer", work->povray->version, "effects", effects_json(work, origin), "camera",
                 forms[work->look.form], "gain", work->look.gain, "rays", noise->rays);
   if (noise->known)
@@ -53,9 +40,7 @@ char *bake_provenance(const struct bake_work *work, const struct bake_origin *or
   if (work->options->tolerance > 0)
     json_object_set_new(object, "resolution", json_string(origin->resolution.line));
   if (origin->housing) json_object_set_new(object, "housing", json_string(origin->housing));
-  char *text = json_dumps(object, JSON_COMPACT);
+  enum result result = json_text(object, mark, JSON_COMPACT, text, error);
   json_decref(object);
-  if (slab_json_lost() == lost) return text;
-  free(text);
-  return NULL;
+  return result;
 }

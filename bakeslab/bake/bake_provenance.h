@@ -17,7 +17,8 @@ struct bake_origin {
   char *housing;                      /* SDL, or NULL */
 };
 
-/* NULL where there is no memory; the caller frees it. */
-char *bake_provenance(const struct bake_work *work, const struct bake_origin *origin);
+/* The caller frees the text. */
+enum result bake_provenance(const struct bake_work *work, const struct bake_origin *origin,
+                            char **text, struct error *error);
 
 #endif

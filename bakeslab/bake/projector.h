@@ -5,7 +5,7 @@
 #ifndef PROJECTOR_H
 #define PROJECTOR_H
 
-#include "file/slab_exr.h"
+#include "base/picture.h"
 #include "slab/slab.h"
 
 enum { PROJECTOR_ST = 256 }; /* samples along the picture's longer side, unless told */

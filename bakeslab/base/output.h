@@ -8,10 +8,6 @@
 
 #include "base/result.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 struct output {
   int fd;          /* open for reading and writing until it is committed or abandoned */
   char *target;    /* what the file will be called; owned */
@@ -38,7 +34,4 @@ enum result output_commit(struct output *output, struct error *error);
  * a commit, where it does nothing. */
 void output_abandon(struct output *output);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -4,10 +4,6 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 struct progress {
   bool shown;
   double start, drawn; /* seconds */
@@ -24,7 +20,4 @@ void progress_show(struct progress *progress, double part, const char *label);
 /* Clears the line. */
 void progress_end(struct progress *progress);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

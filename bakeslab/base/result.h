@@ -8,10 +8,6 @@
 #ifndef RESULT_H
 #define RESULT_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum result {
   RESULT_OK = 0,
   RESULT_BAD,    /* refused: the content of a file or an argument is wrong */
@@ -32,7 +28,4 @@ enum result result_fail(struct error *error, enum result result, const char *for
 /* Makes one line of a text: line ends become blanks. */
 void result_one_line(char *text);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

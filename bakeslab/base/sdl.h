@@ -5,10 +5,22 @@
 
 #include <stdio.h>
 
+#include "base/result.h"
+
 /* A string: POV-Ray knows \" and \\. */
 void sdl_string(const char *text, FILE *out);
 
 /* Within a comment: a control character must not end the line. */
 void sdl_comment(const char *text, FILE *out);
+
+/* POV-Ray's identifiers have at most 40 characters, and the longest suffix that an
+ * include adds is _Canned_Inc_Temp. With the zero at the end. */
+enum { SDL_IDENTIFIER_SIZE = 40 - 16 + 1 };
+
+/* The name of a lamp's macros, from its slab's: each word capitalised, so that desk_lamp
+ * lights a scene by Desk_Lamp_Canned. RESULT_BAD for what is no identifier (letters, digits
+ * and _, a letter first) and for what is longer than SDL_IDENTIFIER_SIZE - 1. */
+enum result sdl_capitalise(const char *name, char capitalised[SDL_IDENTIFIER_SIZE],
+                           struct error *error);
 
 #endif

@@ -21,15 +21,15 @@ static enum result run_rest(const struct bake_work *work, const char *label,
   int *wanted = malloc(tiles * sizeof *wanted);
   enum result result =
       deviation && wanted ? RESULT_OK : result_fail(error, RESULT_MEMORY, "out of memory");
-  if (!result) result = bake_sum_deviation(rounds->sum, deviation, error);
-  if (!result)
+  if (result == RESULT_OK) result = bake_sum_deviation(rounds->sum, deviation, error);
+  if (result == RESULT_OK)
     result = bake_plan_allocate(&rounds->tiles, deviation, PILOT, options->rays, options->rays_max,
                                 wanted, error);
-  if (!result)
+  if (result == RESULT_OK)
     result = bake_plan_rest(&rounds->tiles, wanted, PILOT, work->look.form, &rounds->rest, error);
   free(deviation);
   free(wanted);
-  if (!result)
+  if (result == RESULT_OK)
     result = bake_run(work, &rounds->rest, options->shards > 1 ? NULL : rounds->sum, label, report,
                       error);
   return result;
@@ -44,15 +44,15 @@ enum result bake_rounds_run(const struct bake_work *work, const char *label,
   *rounds = (struct bake_rounds){0};
   enum result result = bake_tiles_init(&rounds->tiles, work->slabs, work->lamp->slab_count,
                                        work->look.form == BAKE_TRANSPOSED, error);
-  if (!result)
+  if (result == RESULT_OK)
     result =
         bake_sum_new(&rounds->tiles, adaptive ? options->rays_max : passes, &rounds->sum, error);
-  if (!result)
+  if (result == RESULT_OK)
     result = bake_plan_pilot(&rounds->tiles, passes, work->look.form, &rounds->pilot, error);
-  if (!result)
+  if (result == RESULT_OK)
     result = bake_run(work, &rounds->pilot, adaptive || !shard ? rounds->sum : NULL,
                       adaptive ? "pilot" : label, report, error);
-  if (!result && adaptive) result = run_rest(work, label, rounds, report, error);
+  if (result == RESULT_OK && adaptive) result = run_rest(work, label, rounds, report, error);
   return result;
 }
 

@@ -79,10 +79,12 @@ static enum result take_batch(struct run *run, size_t batch, struct error *error
   run->rays_done += run->round->batches[batch].rays;
   run->ready[batch] = true;
   enum result result = RESULT_OK;
-  while (run->sum && !result && run->summed < run->round->batch_count && run->ready[run->summed]) {
+  while (run->sum && result == RESULT_OK && run->summed < run->round->batch_count &&
+         run->ready[run->summed]) {
     size_t next = run->summed++;
     if (next != batch) result = read_batch(run, next, error);
-    if (!result) bake_sum_add(run->sum, run->round, &run->round->batches[next], run->rgb);
+    if (result == RESULT_OK)
+      bake_sum_add(run->sum, run->round, &run->round->batches[next], run->rgb);
   }
   return result;
 }
@@ -107,11 +109,11 @@ static enum result start_batch(struct run *run, struct process *process, size_t 
                             : result_fail(error, RESULT_MEMORY, "out of memory");
   process->job.directory = process->scratch;
   process->job.library = run->library.paths;
-  if (!result) result = lamp_source_link(work->source, process->scratch, error);
-  if (!result) result = files_write(process->scratch, "scene.pov", text, error);
-  if (!result) result = povray_start(work->povray, &process->job, &process->pid, error);
+  if (result == RESULT_OK) result = lamp_source_link(work->source, process->scratch, error);
+  if (result == RESULT_OK) result = files_write(process->scratch, "scene.pov", text, error);
+  if (result == RESULT_OK) result = povray_start(work->povray, &process->job, &process->pid, error);
   free(text);
-  if (!result) {
+  if (result == RESULT_OK) {
     process->state = RENDERING;
     process->start = progress_now();
     return RESULT_OK;
@@ -164,17 +166,18 @@ static enum result end_batch(struct run *run, struct process *process, int statu
   const struct bake_work *work = run->work;
   const struct bake_batch *batch = &run->round->batches[process->batch];
   enum result result = povray_finish(&process->job, status, error);
-  if (result) lamp_source_rename(work->source, error);
-  if (!result)
+  if (result != RESULT_OK) lamp_source_rename(work->source, error);
+  if (result == RESULT_OK)
     result = bake_scene_read(&work->look, run->round, batch, &process->job, run->rgb, error);
-  if (!result) result = check_photons(run, process, error);
+  if (result == RESULT_OK) result = check_photons(run, process, error);
   if (result == RESULT_BAD) result_fail(error, result, "%s: %s", work->options->lamp, error->text);
-  if (!result) result = lamp_reads_unchanged(&work->lamp->reads, error);
-  if (!result) count_work(run, process->scratch);
-  if (!result) result = bake_store_commit(work->store, process->scratch, process->key, error);
-  if (result) result = explain_full_disk(work->store, batch->rays, result, error);
+  if (result == RESULT_OK) result = lamp_reads_unchanged(&work->lamp->reads, error);
+  if (result == RESULT_OK) count_work(run, process->scratch);
+  if (result == RESULT_OK)
+    result = bake_store_commit(work->store, process->scratch, process->key, error);
+  if (result != RESULT_OK) result = explain_full_disk(work->store, batch->rays, result, error);
   release(process, result != RESULT_OK);
-  return result ? result : take_batch(run, process->batch, error);
+  return result != RESULT_OK ? result : take_batch(run, process->batch, error);
 }
 
 static void kill_all(struct run *run) {
@@ -211,7 +214,7 @@ static enum result skip_found(struct run *run, struct bake_report *report, struc
     if (!found) return RESULT_OK;
     ++report->found;
     enum result result = take_batch(run, batch, error);
-    if (result) return result;
+    if (result != RESULT_OK) return result;
     run->progress.start_part = (double)run->rays_done / (double)run->rays_all;
   }
   return RESULT_OK;
@@ -249,7 +252,7 @@ static enum result collect(struct run *run, struct bake_report *report, struct e
                    1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
     report->rays += (double)run->round->batches[process->batch].rays;
     enum result result = end_batch(run, process, status, error);
-    if (result) return result;
+    if (result != RESULT_OK) return result;
   }
   return RESULT_OK;
 }
@@ -263,17 +266,17 @@ static enum result loop(struct run *run, const char *label, struct bake_report *
                          "from them",
                          run->work->store->directory);
     enum result result = collect(run, report, error);
-    if (result) return result;
+    if (result != RESULT_OK) return result;
     double rays;
     int rendering = count_rendering(run, &rays);
     progress_show(&run->progress, rays / (double)run->rays_all, label);
     for (; rendering < run->work->options->jobs; ++rendering) {
       struct process *process = idle_process(run);
       if (process) result = skip_found(run, report, error);
-      if (result) return result;
+      if (result != RESULT_OK) return result;
       if (!process || run->next == run->count) break;
       result = start_batch(run, process, run->order[run->next++], error);
-      if (result) return explain_full_disk(run->work->store, 0, result, error);
+      if (result != RESULT_OK) return explain_full_disk(run->work->store, 0, result, error);
     }
     bool busy = false;
     for (int n = 0; n < run->slots; ++n) busy |= run->processes[n].state != IDLE;
@@ -310,7 +313,7 @@ enum result bake_run(const struct bake_work *work, const struct bake_round *roun
   if (!run.processes || !run.order || !run.ready || !run.rgb)
     result = result_fail(error, RESULT_MEMORY, "out of memory");
   progress_start(&run.progress, work->options->quiet, 0);
-  if (!result) result = loop(&run, label, report, error);
+  if (result == RESULT_OK) result = loop(&run, label, report, error);
   if (run.processes) kill_all(&run);
   progress_end(&run.progress);
   report->traced += run.traced;

@@ -2,8 +2,9 @@
 #ifndef BAKE_RUN_H
 #define BAKE_RUN_H
 
-#include "bake/bake.h"
 #include "base/progress.h"
+#include "batch/bake_options.h"
+#include "batch/bake_scene.h"
 #include "batch/bake_store.h"
 #include "batch/bake_sum.h"
 

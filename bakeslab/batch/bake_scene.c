@@ -222,7 +222,7 @@ enum result bake_scene_read(const struct bake_look *look, const struct bake_roun
   for (int frame = 0; frame < job->frames; ++frame) {
     struct picture picture = {0};
     enum result result = povray_read_frame(job, frame, &picture, error);
-    if (result) return result;
+    if (result != RESULT_OK) return result;
     memcpy(rgb + 3 * rays * (size_t)frame, picture.rgb + skip, 3 * rays * sizeof *rgb);
     picture_free(&picture);
   }

@@ -51,7 +51,7 @@ static bool is_current(int lock, const char *path) {
 static enum result try_lock(const char *path, bool shared, struct bake_store *store,
                             struct error *error) {
   enum result result = files_make_directory(store->directory, error);
-  if (result) return result;
+  if (result != RESULT_OK) return result;
   store->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (store->lock < 0) /* the folder may just have gone */
     return errno == ENOENT ? RESULT_OK
@@ -82,12 +82,12 @@ enum result bake_store_open(const char *output, bool shared, struct bake_store *
   char *path = files_join(store->directory, lock_name);
   if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
   enum result result = RESULT_OK;
-  for (int tries = 0; !result && store->lock < 0; ++tries)
+  for (int tries = 0; result == RESULT_OK && store->lock < 0; ++tries)
     result = tries < MOST_TRIES
                  ? try_lock(path, shared, store, error)
                  : result_fail(error, RESULT_IO, "%s: others keep removing it", path);
   free(path);
-  if (!result && !shared) sweep(store->directory, scratch_mark);
+  if (result == RESULT_OK && !shared) sweep(store->directory, scratch_mark);
   return result;
 }
 

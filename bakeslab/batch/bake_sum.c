@@ -226,7 +226,7 @@ enum result bake_sum_finish(const struct bake_sum *sum, double gain, struct slab
                             struct error *error) {
   for (int page = 0; page < sum->tiles->pages; ++page) {
     enum result result = slab_alloc(&pages[page], error);
-    if (result) return result;
+    if (result != RESULT_OK) return result;
   }
   struct finish finish = {pages, gain};
   for_each(sum, finish_sample, &finish);

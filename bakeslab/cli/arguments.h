@@ -11,10 +11,6 @@
 
 #include "base/result.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 struct argument_words {
   int count;
   char **words; /* count of them and a NULL; all owned */
@@ -28,7 +24,4 @@ enum result arguments_expand(int argc, char **argv, struct argument_words *argum
 
 void arguments_free(struct argument_words *arguments);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

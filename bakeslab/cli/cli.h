@@ -14,13 +14,6 @@
 
 #include "base/result.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/* Of both programs; provenance names "bakeslab " CANNED_VERSION as the tool. */
-#define CANNED_VERSION "0.1.0"
-
 enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
 
 struct cli_command {
@@ -87,7 +80,4 @@ int cli_close_stdout(void);
  * the exit status 1 where it fails. */
 void cli_check_stdout_at_exit(void);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/version.h"
 #include "cli/arguments.h"
 #include "cli/cli.h"
 
@@ -98,14 +99,14 @@ int cli_main(const struct cli_program *program, int argc, char **argv) {
   argp_program_version = version;
   cli_set_command_line(program->name, argc, argv);
   enum result result = arguments_expand(argc, argv, &arguments, &error);
-  if (!result && !cli_set_command_line(program->name, arguments.count, arguments.words))
+  if (result == RESULT_OK && !cli_set_command_line(program->name, arguments.count, arguments.words))
     result = RESULT_MEMORY;
   if (result == RESULT_MEMORY) {
     const char *command = arguments.count > 1 ? arguments.words[1] : argc > 1 ? argv[1] : "";
     set_failed(program, command);
     cli_out_of_memory();
   }
-  if (result) {
+  if (result != RESULT_OK) {
     cli_complain("%s", error.text);
     status = CLI_USAGE;
   } else {

@@ -8,6 +8,7 @@
 
 #include "bake/bake.h"
 #include "cmd/slab_options.h"
+#include "lamp/lamp.h"
 
 static volatile sig_atomic_t stop;
 

@@ -6,6 +6,7 @@
 
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
+#include "file/slab_json.h"
 #include "slab/flux_box.h"
 #include "slab/slab_accuracy.h"
 #include "slab/slab_profile.h"
@@ -47,7 +48,7 @@ static enum result judge_page(const char *path, int page, const struct slab *sla
                               struct error *error) {
   struct slab_profile profile;
   enum result result = slab_profile(slab, &profile, error);
-  for (int k = 0; k < 2 * SLAB_AXES && !result; ++k) {
+  for (int k = 0; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
     int axis = k / 2, end = k % 2;
     double share = slab_profile_cut_off(&profile, axis, end);
     if (share == 0) continue;
@@ -85,7 +86,7 @@ static enum result weigh_page(const char *path, int page, const struct slab *sla
 static enum result weigh_twice(const char *path, const struct slab_file *file, int page,
                                const struct slab *slab, int *warnings, struct error *error) {
   enum result result = RESULT_OK;
-  for (int other = 0; other < slab_file_pages(file) && !result; ++other) {
+  for (int other = 0; other < slab_file_pages(file) && result == RESULT_OK; ++other) {
     double share = 0;
     if (other == page) continue;
     result = flux_box_twice(slab, slab_file_page(file, other), &share, error);
@@ -106,26 +107,24 @@ static void print_part(const char *before, const char *name, double part) {
     printf("%s%s %.2g %%", before, name, 100 * part);
 }
 
-static enum result print_floor(const char *path, int page, const struct slab *slab,
-                               struct error *error) {
-  double distances[SLAB_ACCURACY_DISTANCES];
-  struct slab_accuracy floors[SLAB_ACCURACY_DISTANCES], *floor = floors;
-  for (int n = 0; n < SLAB_ACCURACY_DISTANCES; ++n)
-    distances[n] = slab_accuracy_apertures[n] * slab_aperture(slab);
-  enum result result =
-      slab_accuracy_estimate(slab, SLAB_ACCURACY_DISTANCES, distances, floors, error);
-  for (; result == RESULT_OK && floor < floors + SLAB_ACCURACY_DISTANCES; ++floor) {
-    double apertures = floor->distance / slab_aperture(slab);
+static enum result print_accuracy(const char *path, int page, const struct slab *slab,
+                                  struct error *error) {
+  struct slab_sampling sampling;
+  struct slab_accuracy all[SLAB_ACCURACY_DISTANCES], *accuracy = all;
+  enum result result = slab_json_sampling(slab, &sampling, error);
+  if (result == RESULT_OK) result = slab_accuracy_table(slab, &sampling, all, error);
+  for (; result == RESULT_OK && accuracy < all + SLAB_ACCURACY_DISTANCES; ++accuracy) {
+    double apertures = accuracy->distance / slab_aperture(slab);
     printf("%s: page %d: error of irradiance at %g aperture%s (%.6g): ", path, page + 1, apertures,
-           apertures > 1 ? "s" : "", floor->distance);
-    if (isnan(floor->all))
+           apertures > 1 ? "s" : "", accuracy->distance);
+    if (isnan(accuracy->all))
       printf("unknown");
     else
-      printf("%s%.2g %%", isnan(floor->st) || isnan(floor->uv) ? "at least " : "about ",
-             100 * floor->all);
-    print_part(" (", "st", floor->st);
-    print_part(", ", "uv", floor->uv);
-    print_part(", ", "noise", floor->noise);
+      printf("%s%.2g %%", isnan(accuracy->st) || isnan(accuracy->uv) ? "at least " : "about ",
+             100 * accuracy->all);
+    print_part(" (", "st", accuracy->st);
+    print_part(", ", "uv", accuracy->uv);
+    print_part(", ", "noise", accuracy->noise);
     printf(")\n");
   }
   return result;
@@ -143,7 +142,7 @@ static enum result check_file(const char *path, bool errors, int *warnings, stru
              slab.samples[1], slab.samples[2], slab.samples[3]);
     if (result == RESULT_OK) result = weigh_page(path, page, &slab, warnings, error);
     if (result == RESULT_OK) result = weigh_twice(path, file, page, &slab, warnings, error);
-    if (result == RESULT_OK && errors) result = print_floor(path, page, &slab, error);
+    if (result == RESULT_OK && errors) result = print_accuracy(path, page, &slab, error);
     slab_free(&slab);
   }
   slab_file_close(file);

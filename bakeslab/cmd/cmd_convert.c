@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/version.h"
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
@@ -77,18 +78,16 @@ static void replace(struct slab *slab, struct slab *with) {
  * cell means nor sharpened. */
 static enum result check_sharpening(const struct options *options, const struct slab *slab,
                                     bool resample_st, struct error *error) {
-  unsigned long lost = slab_json_lost();
-  bool sharpened = slab_is_sharpened(slab);
-  char *how = slab_json_get(slab, "samples_are");
-  bool points = how && !strcmp(how, "\"points\"");
-  free(how);
-  if (slab_json_lost() != lost) return result_fail(error, RESULT_MEMORY, "out of memory");
+  struct slab_sampling sampling = {0};
+  enum result result = slab_json_sampling(slab, &sampling, error);
+  if (result != RESULT_OK) return result;
+  bool sharpened = sampling.sharpened;
   if (sharpened && options->sharpen)
     return result_fail(error, RESULT_BAD, "is sharpened already, as its provenance says");
   if (sharpened && resample_st)
     return result_fail(error, RESULT_BAD,
                        "is sharpened: give --st to the convert that sharpens the slab it is from");
-  if (points && options->sharpen)
+  if (sampling.points && options->sharpen)
     return result_fail(
         error, RESULT_BAD,
         "its samples are points: only means over cells can be sharpened (bake without "
@@ -103,7 +102,7 @@ static enum result sharpen_page(const struct options *options, struct slab *slab
                                  ? SLAB_SHARPEN_POSITIVE
                                  : SLAB_SHARPEN_EXACT;
   enum result result = slab_sharpen(slab, how, error);
-  return result == RESULT_OK ? slab_sharpen_record(slab, how, error) : result;
+  return result == RESULT_OK ? slab_json_record_sharpening(slab, how, error) : result;
 }
 
 static enum result convert_page(const struct options *options, struct slab *slab,

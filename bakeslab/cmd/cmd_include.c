@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/name.h"
 #include "base/output.h"
+#include "base/sdl.h"
 #include "cmd/slab_options.h"
 #include "file/slab_exr.h"
 #include "file/slab_file.h"
@@ -247,9 +247,11 @@ static enum result make_lights(const struct arguments *arguments, const struct s
 static enum result write_include(const struct arguments *arguments, const struct slab *slab,
                                  const char *name, const struct include_choice *choice,
                                  const char *image, struct error *error) {
-  unsigned long lost = slab_json_lost();
-  char *housing = slab_json_get_string(slab, "provenance", "housing");
-  if (slab_json_lost() != lost) return result_fail(error, RESULT_MEMORY, "out of memory");
+  json_t *root = NULL;
+  enum result result = slab_json_root(slab, &root, error);
+  if (result != RESULT_OK) return result;
+  const char *housing =
+      json_string_value(json_object_get(json_object_get(root, "provenance"), "housing"));
   int harmless = housing && housing_is_harmless(housing);
   if (*choice->why) cli_note("%s: note: %s", arguments->slab, choice->why);
   if (housing && !harmless)
@@ -263,8 +265,8 @@ static enum result write_include(const struct arguments *arguments, const struct
                               .housing = harmless ? housing : NULL,
                               .housing_left_out = housing && !harmless,
                               .chosen = *choice->why ? choice->why : NULL};
-  enum result result = write_files(choice, &text, arguments->output, image, error);
-  free(housing);
+  result = write_files(choice, &text, arguments->output, image, error);
+  json_decref(root);
   return result;
 }
 

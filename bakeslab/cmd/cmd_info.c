@@ -6,13 +6,13 @@
  *   lowest (the smallest channel value).
  * Flux is in W or lm where the radiance has such a unit, always with lengths in
  * metres (slab_flux_metric). */
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cmd/slab_options.h"
+#include "file/json_text.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
 
@@ -69,15 +69,12 @@ static void add_figures(json_t *page, const struct slab *slab, const double flux
   json_object_set_new(page, "lowest", json_real((double)lowest));
 }
 
-static void add_kept(json_t *page, const struct slab *slab, const char *key) {
-  char *text = slab_json_get(slab, key);
-  json_t *value = text ? json_loads(text, JSON_DECODE_ANY, NULL) : NULL;
-  if (value) json_object_set_new(page, key, value);
-  free(text);
+static void add_kept(json_t *page, const json_t *root, const char *key) {
+  json_object_set(page, key, json_object_get(root, key)); /* NULL: not set */
 }
 
-static json_t *describe(const struct slab *slab, int number, enum slab_precision precision,
-                        const double flux[3]) {
+static json_t *describe(const struct slab *slab, const json_t *root, int number,
+                        enum slab_precision precision, const double flux[3]) {
   json_t *page = json_object();
   json_object_set_new(page, "page", json_integer(number));
   json_object_set_new(page, "name", json_string(slab->name));
@@ -92,9 +89,9 @@ static json_t *describe(const struct slab *slab, int number, enum slab_precision
                       isinf(slab->st_distance) ? json_null() : json_real(slab->st_distance));
   json_object_set_new(page, "metres_per_unit", json_real(slab->metres_per_unit));
   json_object_set_new(page, "radiance_unit", json_string(slab->radiance_unit));
-  add_kept(page, slab, "samples_are");
+  add_kept(page, root, "samples_are");
   add_figures(page, slab, flux);
-  add_kept(page, slab, "provenance");
+  add_kept(page, root, "provenance");
   return page;
 }
 
@@ -106,17 +103,18 @@ static void print_vector(const json_t *page, const char *key) {
   printf("  %-14s%g %g %g\n", key, item(page, key, 0), item(page, key, 1), item(page, key, 2));
 }
 
-static void print_value(const char *key, const json_t *value) {
-  if (json_is_string(value)) {
-    printf("    %-12s%s\n", key, json_string_value(value));
-    return;
-  }
-  char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(6));
-  printf("    %-12s%s\n", key, text ? text : "");
+static enum result print_value(const char *key, const json_t *value, struct error *error) {
+  char *text = NULL;
+  enum result result = RESULT_OK;
+  if (!json_is_string(value))
+    result = json_text(value, json_mark(), JSON_REAL_PRECISION(6), &text, error);
+  if (result == RESULT_OK) printf("    %-12s%s\n", key, text ? text : json_string_value(value));
   free(text);
+  return result;
 }
 
-static void print_page(const char *path, const json_t *page, int pages) {
+static enum result print_page(const char *path, const json_t *page, int pages,
+                              struct error *error) {
   const char *unit = json_string_value(json_object_get(page, "radiance_unit"));
   const json_t *distance = json_object_get(page, "st_distance");
   printf("%s: page %d of %d: %s\n", path, (int)json_integer_value(json_object_get(page, "page")),
@@ -146,8 +144,26 @@ static void print_page(const char *path, const json_t *page, int pages) {
   const char *key;
   json_t *value, *provenance = json_object_get(page, "provenance");
   if (provenance) printf("  provenance\n");
-  if (provenance && !json_is_object(provenance)) print_value("", provenance);
-  json_object_foreach(provenance, key, value) print_value(key, value);
+  if (provenance && !json_is_object(provenance)) return print_value("", provenance, error);
+  enum result result = RESULT_OK;
+  json_object_foreach(provenance, key, value) {
+    if (result == RESULT_OK) result = print_value(key, value, error);
+  }
+  return result;
+}
+
+static enum result print_json(const char *path, json_t *pages, unsigned long mark,
+                              struct error *error) {
+  char *text;
+  json_t *root = json_object();
+  json_object_set_new(root, "file", json_any_string(path));
+  json_object_set(root, "pages", pages);
+  enum result result =
+      json_text(root, mark, JSON_INDENT(2) | JSON_REAL_PRECISION(17), &text, error);
+  if (result == RESULT_OK) puts(text);
+  free(text);
+  json_decref(root);
+  return result;
 }
 
 static enum result collect(const char *path, json_t *pages, struct error *error) {
@@ -156,12 +172,15 @@ static enum result collect(const char *path, json_t *pages, struct error *error)
   for (int page = 0; result == RESULT_OK && page < slab_file_pages(file); ++page) {
     struct slab slab = {0};
     double flux[3];
+    json_t *root = NULL;
     result = slab_file_load(file, page, &slab, error);
-    if (result == RESULT_OK && slab_flux_metric(&slab, flux))
+    if (result == RESULT_OK) result = slab_json_root(&slab, &root, error);
+    if (result == RESULT_OK && slab_flux_metric(&slab, flux) != RESULT_OK)
       result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
     if (result == RESULT_OK)
       json_array_append_new(pages,
-                            describe(&slab, page + 1, slab_file_precision(file, page), flux));
+                            describe(&slab, root, page + 1, slab_file_precision(file, page), flux));
+    json_decref(root);
     slab_free(&slab);
   }
   slab_file_close(file);
@@ -186,27 +205,15 @@ int cmd_info(int argc, char **argv) {
   struct options options = {0};
   struct error error = {{0}};
   cli_parse(&argp, argc, argv, &options);
-  unsigned long lost = slab_json_lost();
-  json_t *root = json_object(), *pages = json_array();
-  int status = CLI_OK;
-  if (collect(options.path, pages, &error) != RESULT_OK) {
-    status = cli_fail(&error);
-  } else if (slab_json_lost() != lost) {
-    status = CLI_FAILED; /* said below */
-  } else if (options.json) {
-    json_object_set_new(root, "file", json_string(options.path));
-    json_object_set(root, "pages", pages);
-    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    putchar('\n');
-  } else {
-    for (size_t k = 0; k < json_array_size(pages); ++k)
-      print_page(options.path, json_array_get(pages, k), (int)json_array_size(pages));
-  }
+  unsigned long mark = json_mark();
+  json_t *pages = json_array();
+  enum result result = collect(options.path, pages, &error);
+  if (result == RESULT_OK) result = json_whole(mark, &error);
+  if (result == RESULT_OK && options.json) result = print_json(options.path, pages, mark, &error);
+  for (size_t k = 0; !options.json && result == RESULT_OK && k < json_array_size(pages); ++k)
+    result =
+        print_page(options.path, json_array_get(pages, k), (int)json_array_size(pages), &error);
   json_decref(pages);
-  json_decref(root);
-  if (!*error.text && slab_json_lost() != lost) {
-    result_fail(&error, RESULT_MEMORY, "%s: out of memory", options.path);
-    status = cli_fail(&error);
-  }
+  int status = result == RESULT_OK ? CLI_OK : cli_fail(&error);
   return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
 }

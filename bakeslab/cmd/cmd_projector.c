@@ -4,7 +4,8 @@
 #include <sys/stat.h>
 
 #include "bake/projector.h"
-#include "base/name.h"
+#include "base/sdl.h"
+#include "base/version.h"
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
 #include "file/slab_image.h"

@@ -245,13 +245,6 @@ enum result slab_exr_read_block(struct slab_exr *exr, int part, int column, int 
   return code == EXR_ERR_SUCCESS ? RESULT_OK : fail(exr, part, code, error);
 }
 
-void picture_free(struct picture *picture) {
-  if (!picture) return;
-  free(picture->rgb);
-  free(picture->error);
-  memset(picture, 0, sizeof *picture);
-}
-
 /* Copies the part of a block that lies inside the picture. */
 static void place_block(const struct slab_raster *raster, int column, int row, const float *block,
                         float *rgb) {

@@ -6,25 +6,11 @@
 #ifndef SLAB_EXR_H
 #define SLAB_EXR_H
 
+#include "base/picture.h"
 #include "base/result.h"
 
 struct output;
 struct slab_raster;
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-struct picture {
-  int width, height;
-  float *rgb; /* owned */
-  float
-      *error; /* how far off each value may be, INFINITY where that is not known: channels error.R,
-                 error.G and error.B in a part of their own, `error`, so that readers of pictures
-                 need not know of it; owned, NULL for none. Written with float only, not read. */
-};
-
-void picture_free(struct picture *picture);
 
 /* Reads channels R, G and B (half or float) of the first part. Non-finite
  * pixels are delivered as they are. */
@@ -32,7 +18,9 @@ enum result slab_exr_read(const char *path, struct picture *picture, struct erro
 
 /* Writes one part, half or float, losslessly compressed, whole or not at all.
  * `comment` goes into the string attribute "comments"; NULL for none. A value
- * that half cannot hold is refused. */
+ * that half cannot hold is refused. A picture's `error` becomes the channels error.R, error.G and
+ * error.B of a part of their own, `error`, so that readers of pictures need not know of it; with
+ * float only. Readers leave it NULL. */
 enum result slab_exr_write(const char *path, const struct picture *picture, int half,
                            const char *comment, struct error *error);
 
@@ -62,7 +50,4 @@ struct slab_raster *slab_exr_part(struct slab_exr *exr, int part); /* owned by t
 enum result slab_exr_read_block(struct slab_exr *exr, int part, int column, int row, float *rgb,
                                 struct error *error);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -8,20 +8,10 @@
 #ifndef SLAB_FILE_H
 #define SLAB_FILE_H
 
+#include "file/slab_precision.h"
 #include "slab/slab.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 struct slab_file; /* owned by whoever opened it */
-
-enum slab_precision {
-  SLAB_PRECISION_DEFAULT, /* LogLuv for .tif, float for .exr */
-  SLAB_PRECISION_LOGLUV,
-  SLAB_PRECISION_FLOAT,
-  SLAB_PRECISION_HALF
-};
 
 enum result slab_file_open(const char *path, struct slab_file **file, struct error *error);
 void slab_file_close(struct slab_file *file); /* NULL allowed */
@@ -59,7 +49,4 @@ enum slab_precision slab_file_precision_of(const char *path, enum slab_precision
 enum result slab_file_write(const char *path, const struct slab *slabs, int count,
                             enum slab_precision precision, struct error *error);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -45,7 +45,7 @@ enum result slab_file_check_target(const char *path, enum slab_precision precisi
   bool exr;
   struct stat status;
   enum result result = choose(path, &precision, &exr, error);
-  if (!result && stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+  if (result == RESULT_OK && stat(path, &status) == 0 && !S_ISREG(status.st_mode))
     result = result_fail(error, RESULT_IO, "%s: exists and is not a regular file", path);
   return result;
 }

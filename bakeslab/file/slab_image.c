@@ -13,6 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "file/slab_exr.h"
+
 enum { EXEC_FAILED = 127 };
 
 /* A scratch folder: in.SUFFIX (oiiotool takes # and % in names for patterns, so it never sees
@@ -158,19 +160,20 @@ enum result slab_image_read(const char *path, const void *bytes, size_t size, co
   *picture = (struct picture){0};
   if (!suffix) suffix = dot ? dot + 1 : "";
   enum result result = scratch_make(&scratch, path, bytes, size, suffix, &made, error);
-  if (!result) result = run(&scratch, path, error);
-  if (!result) {
+  if (result == RESULT_OK) result = run(&scratch, path, error);
+  if (result == RESULT_OK) {
     scratch_path(&scratch, OUT, out);
     result = slab_exr_read(out, picture, &inner);
-    if (result) result_fail(error, result, "%s: oiiotool's copy: %s", path, inner.text);
+    if (result != RESULT_OK)
+      result_fail(error, result, "%s: oiiotool's copy: %s", path, inner.text);
   }
-  if (!result) {
+  if (result == RESULT_OK) {
     first_line(&scratch, SAID, said);
     double alpha = strtod(said, &meaning);
     if (transparent) *transparent = !(alpha >= 1);
     result = decode(path, meaning + strspn(meaning, " "), picture, error);
   }
   if (made) scratch_remove(&scratch);
-  if (result) picture_free(picture);
+  if (result != RESULT_OK) picture_free(picture);
   return result;
 }

@@ -6,11 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "file/slab_exr.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "base/picture.h"
+#include "base/result.h"
 
 /* Reads an image as linear RGB, row 0 at the top; picture_free frees it. Floating-point
  * files and files that say so are linear, all others sRGB. One channel is grey. Alpha does not
@@ -22,7 +19,4 @@ extern "C" {
 enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
                             struct picture *picture, bool *transparent, struct error *error);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

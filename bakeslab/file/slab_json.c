@@ -1,43 +1,13 @@
 /* slab_json.c - reads and writes the JSON text of a page with jansson. */
 #include "file/slab_json.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/json_text.h"
+
 enum { FORMAT_VERSION = 1 };
-
-static _Thread_local unsigned long lost;
-
-static void *allocate(size_t size) {
-  void *memory = malloc(size);
-  if (!memory) ++lost;
-  return memory;
-}
-
-__attribute__((constructor)) static void watch_allocations(void) {
-  json_set_alloc_funcs(allocate, free);
-}
-
-unsigned long slab_json_lost(void) {
-  return lost;
-}
-
-static enum result no_memory(struct error *error) {
-  return result_fail(error, RESULT_MEMORY, "out of memory");
-}
-
-static enum result load(const char *text, size_t flags, json_t **root, struct error *error) {
-  json_error_t why;
-  unsigned long before = lost;
-  *root = json_loads(text, flags, &why);
-  if (*root && lost == before) return RESULT_OK;
-  json_decref(*root);
-  *root = NULL;
-  if (lost != before) return no_memory(error);
-  return result_fail(error, RESULT_BAD, "malformed JSON: line %d: %s", why.line, why.text);
-}
 
 static enum result get_numbers(const json_t *root, const char *key, double *out, size_t count,
                                struct error *error) {
@@ -167,35 +137,27 @@ enum result slab_json_parse(const char *text, struct slab *slab, double white[3]
   double ignored[3];
   json_t *root;
   *slab = slab_default();
-  enum result result = load(text, JSON_REJECT_DUPLICATES, &root, error);
+  enum result result = json_read(text, JSON_REJECT_DUPLICATES, &root, error);
   if (result == RESULT_OK) result = get_fields(root, slab, white ? white : ignored, error);
   if (result == RESULT_OK) {
     slab->json = strdup(text);
-    if (!slab->json) result = no_memory(error);
+    if (!slab->json) result = result_fail(error, RESULT_MEMORY, "out of memory");
   }
   if (result != RESULT_OK) slab_free(slab);
   json_decref(root);
   return result;
 }
 
-/* The page's JSON as an object to change, or a new one. */
-static enum result load_object(const struct slab *slab, json_t **root, struct error *error) {
-  enum result result = load(slab->json ? slab->json : "{}", 0, root, error);
-  if (result != RESULT_OK) return result;
-  if (json_is_object(*root)) return RESULT_OK;
+enum result slab_json_root(const struct slab *slab, json_t **root, struct error *error) {
+  enum result result = json_read(slab->json ? slab->json : "{}", 0, root, error);
+  if (result != RESULT_OK || json_is_object(*root)) return result;
   json_decref(*root);
   *root = NULL;
   return result_fail(error, RESULT_BAD, "the JSON text is not an object");
 }
 
-/* jansson leaves a key out whose text found no memory, and goes on. */
-static char *dump(const json_t *value) {
-  unsigned long before = lost;
-  char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
-  if (lost == before) return text;
-  free(text);
-  return NULL;
-}
+/* How values are written: every double as it is. */
+static const size_t exactly = JSON_REAL_PRECISION(17);
 
 /* A whole number is written without a fraction: 1, not 1.0. */
 static json_t *number(double value) {
@@ -217,9 +179,9 @@ enum result slab_json_text(const struct slab *slab, const double white[3], char 
                            struct error *error) {
   *text = NULL;
   json_t *root = NULL;
-  unsigned long before = lost;
+  unsigned long mark = json_mark();
   enum result result = slab_check(slab, error);
-  if (result == RESULT_OK) result = load_object(slab, &root, error);
+  if (result == RESULT_OK) result = slab_json_root(slab, &root, error);
   if (result != RESULT_OK) return result;
   json_t *samples = json_array();
   int failed = !samples;
@@ -243,127 +205,106 @@ enum result slab_json_text(const struct slab *slab, const double white[3], char 
     failed |= json_object_set_new(root, "logluv_white", numbers(white, 3)) != 0;
   else
     json_object_del(root, "logluv_white");
-  if (!failed) *text = dump(root);
+  result = json_whole(mark, error);
+  if (result == RESULT_OK && failed)
+    result = result_fail(error, RESULT_BAD,
+                         "the description cannot be written as JSON (is the name UTF-8?)");
+  if (result == RESULT_OK) result = json_text(root, mark, exactly, text, error);
   json_decref(root);
-  if (*text) return RESULT_OK;
-  if (lost != before) return no_memory(error);
-  return result_fail(error, RESULT_BAD, "the description cannot be written as JSON%s",
-                     failed ? " (is the name UTF-8?)" : "");
+  return result;
+}
+
+/* Sets a key to a value, which it takes over, in the page's text. */
+static enum result set(struct slab *slab, const char *key, json_t *value, unsigned long mark,
+                       struct error *error) {
+  json_t *root = NULL;
+  char *text = NULL;
+  enum result result = slab_json_root(slab, &root, error);
+  if (value) json_object_set_new(root, key, value);
+  if (!value) json_object_del(root, key);
+  if (result == RESULT_OK) result = json_text(root, mark, exactly, &text, error);
+  if (result == RESULT_OK) {
+    free(slab->json);
+    slab->json = text;
+  }
+  json_decref(root);
+  return result;
 }
 
 enum result slab_json_set(struct slab *slab, const char *key, const char *value,
                           struct error *error) {
-  json_t *root = NULL, *parsed = NULL;
+  json_t *parsed = NULL;
   struct error why;
-  char *text = NULL;
-  enum result result = load_object(slab, &root, error);
-  if (result != RESULT_OK) return result;
-  bool set = true;
-  if (value) {
-    result = load(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &parsed, &why);
-    if (result != RESULT_OK) {
-      result_fail(error, result, "\"%s\": %s", key, why.text);
-      goto out;
-    }
-    set = json_object_set(root, key, parsed) == 0;
-  } else {
-    json_object_del(root, key);
-  }
-  text = set ? dump(root) : NULL;
-  if (!text) {
-    result = no_memory(error);
-    goto out;
-  }
-  free(slab->json);
-  slab->json = text;
-out:
-  json_decref(parsed);
+  unsigned long mark = json_mark();
+  enum result result = RESULT_OK;
+  if (value) result = json_read(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &parsed, &why);
+  if (result != RESULT_OK) return result_fail(error, result, "\"%s\": %s", key, why.text);
+  return set(slab, key, parsed, mark, error);
+}
+
+enum result slab_json_sampling(const struct slab *slab, struct slab_sampling *sampling,
+                               struct error *error) {
+  json_t *root = NULL;
+  enum result result = slab_json_root(slab, &root, error);
+  const json_t *provenance = json_object_get(root, "provenance");
+  const json_t *noise = json_object_get(provenance, "noise");
+  const char *are = json_string_value(json_object_get(root, "samples_are"));
+  const json_t *sample = json_object_get(noise, "sample"), *flux = json_object_get(noise, "flux");
+  *sampling = (struct slab_sampling){
+      .points = are && !strcmp(are, "points"),
+      .sharpened = json_is_string(json_object_get(provenance, "sharpened")),
+      .sample_noise = json_is_number(sample) ? json_number_value(sample) : NAN,
+      .flux_noise = json_is_number(flux) ? json_number_value(flux) : NAN};
   json_decref(root);
   return result;
 }
 
-char *slab_json_get(const struct slab *slab, const char *key) {
+enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening how,
+                                        struct error *error) {
   json_t *root = NULL;
-  if (load_object(slab, &root, NULL) != RESULT_OK) return NULL;
-  const json_t *value = json_object_get(root, key);
-  char *text = value ? dump(value) : NULL;
-  json_decref(root);
-  return text;
-}
-
-char *slab_json_get_string(const struct slab *slab, const char *key, const char *inner) {
-  json_t *root = NULL;
-  if (load_object(slab, &root, NULL) != RESULT_OK) return NULL;
-  const char *text = json_string_value(json_object_get(json_object_get(root, key), inner));
-  char *copy = text ? strdup(text) : NULL;
-  if (text && !copy) ++lost;
-  json_decref(root);
-  return copy;
-}
-
-double slab_json_get_number(const struct slab *slab, const char *key, const char *inner,
-                            const char *innermost) {
-  json_t *root = NULL;
-  if (load_object(slab, &root, NULL) != RESULT_OK) return NAN;
-  const json_t *number =
-      json_object_get(json_object_get(json_object_get(root, key), inner), innermost);
-  double value = json_is_number(number) ? json_number_value(number) : NAN;
-  json_decref(root);
-  return value;
-}
-
-enum result slab_json_set_string(struct slab *slab, const char *key, const char *inner,
-                                 const char *value, struct error *error) {
-  json_t *root = NULL;
-  enum result result = load_object(slab, &root, error);
+  unsigned long mark = json_mark();
+  enum result result = slab_json_root(slab, &root, error);
   if (result != RESULT_OK) return result;
-  json_t *old = json_object_get(root, key);
-  json_t *object = json_is_object(old) ? json_incref(old) : json_object();
-  char *text = json_object_set_new(object, inner, json_string(value)) == 0 ? dump(object) : NULL;
-  result = text ? slab_json_set(slab, key, text, error) : no_memory(error);
-  free(text);
-  json_decref(object);
+  json_t *old = json_object_get(root, "provenance");
+  json_t *provenance = json_is_object(old) ? json_incref(old) : json_object();
+  json_object_set_new(provenance, "sharpened",
+                      json_string(how == SLAB_SHARPEN_POSITIVE ? "st, not below zero" : "st"));
+  result = set(slab, "provenance", provenance, mark, error);
   json_decref(root);
   return result;
 }
 
-/* A string, or a note in its place where it is not UTF-8. */
-static json_t *string(const char *text) {
-  json_t *value = json_string(text);
-  return value ? value : json_string("(not UTF-8)");
+/* The step of "history" that `provenance` tells of; what is known of its samples goes there. */
+static json_t *step_of(const json_t *provenance, json_t *fresh, bool changed) {
+  static const char *const of_samples[] = {"rays", "noise"};
+  json_t *step = json_object();
+  json_object_set(step, "command", json_object_get(provenance, "command"));
+  json_object_set(step, "tool", json_object_get(provenance, "tool"));
+  for (size_t k = 0; changed && k < sizeof of_samples / sizeof *of_samples; ++k) {
+    json_object_set(step, of_samples[k], json_object_get(provenance, of_samples[k]));
+    json_object_del(fresh, of_samples[k]);
+  }
+  return step;
 }
 
 enum result slab_json_record(struct slab *slab, const char *command, const char *tool, bool changed,
                              struct error *error) {
-  static const char *const of_samples[] = {"rays", "noise"};
   json_t *root = NULL;
-  unsigned long at_first = lost;
-  enum result result = load_object(slab, &root, error);
+  unsigned long mark = json_mark();
+  enum result result = slab_json_root(slab, &root, error);
   if (result != RESULT_OK) return result;
   json_t *old = json_object_get(root, "provenance");
   json_t *fresh = json_is_object(old) ? json_copy(old) : json_object();
   json_t *before = json_object_get(old, "history");
   json_t *history = json_is_array(before) ? json_copy(before) : json_array();
-  if (json_is_object(old)) {
-    json_t *step = json_object();
-    json_object_set(step, "command", json_object_get(old, "command"));
-    json_object_set(step, "tool", json_object_get(old, "tool"));
-    for (size_t k = 0; changed && k < sizeof of_samples / sizeof *of_samples; ++k) {
-      json_object_set(step, of_samples[k], json_object_get(old, of_samples[k]));
-      json_object_del(fresh, of_samples[k]);
-    }
-    json_array_append_new(history, step);
-  } else if (old) {
+  if (json_is_object(old))
+    json_array_append_new(history, step_of(old, fresh, changed));
+  else if (old)
     json_array_append(history, old);
-  }
-  json_object_set_new(fresh, "command", string(command));
-  json_object_set_new(fresh, "tool", string(tool));
+  json_object_set_new(fresh, "command", json_any_string(command));
+  json_object_set_new(fresh, "tool", json_any_string(tool));
   json_object_set_new(fresh, "history", history);
-  char *text = dump(fresh);
-  result =
-      text && lost == at_first ? slab_json_set(slab, "provenance", text, error) : no_memory(error);
-  free(text);
-  json_decref(fresh);
+  result = set(slab, "provenance", fresh, mark, error);
   json_decref(root);
   return result;
 }

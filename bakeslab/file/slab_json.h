@@ -4,15 +4,10 @@
 #ifndef SLAB_JSON_H
 #define SLAB_JSON_H
 
-#include "slab/slab.h"
+#include <jansson.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/* How many allocations have failed here in this thread. jansson passes over many of them (a
- * key is not set, a value is not found): compare before and after. */
-unsigned long slab_json_lost(void);
+#include "slab/slab_accuracy.h"
+#include "slab/slab_sharpen.h"
 
 /* Fills a slab's geometry from a text, which it copies into slab->json. The
  * slab is checked; samples stay NULL. `white` (NULL allowed) receives
@@ -31,22 +26,16 @@ enum result slab_json_text(const struct slab *slab, const double white[3], char 
 enum result slab_json_set(struct slab *slab, const char *key, const char *value,
                           struct error *error);
 
-/* The value of a key as JSON text, or NULL where there is none or no memory.
- * The caller frees it. */
-char *slab_json_get(const struct slab *slab, const char *key);
+/* The page's JSON as an object, empty where it has none; json_decref frees it. */
+enum result slab_json_root(const struct slab *slab, json_t **root, struct error *error);
 
-/* The string at key.inner, say "provenance" and "housing"; NULL where it is none. The
- * caller frees it. */
-char *slab_json_get_string(const struct slab *slab, const char *key, const char *inner);
+/* How the samples were taken, as far as "samples_are" and "provenance" say. */
+enum result slab_json_sampling(const struct slab *slab, struct slab_sampling *sampling,
+                               struct error *error);
 
-/* The number at key.inner.innermost, say "provenance", "noise" and "sample"; NAN where it
- * is none. */
-double slab_json_get_number(const struct slab *slab, const char *key, const char *inner,
-                            const char *innermost);
-
-/* Sets the string at key.inner; whatever else is at `key` stays if it is an object. */
-enum result slab_json_set_string(struct slab *slab, const char *key, const char *inner,
-                                 const char *value, struct error *error);
+/* Records in "provenance" how slab_sharpen was called. */
+enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening how,
+                                        struct error *error);
 
 /* Records in "provenance" that `command` of `tool` made the slab. The command
  * and tool before go to the end of its array "history"; its other keys stay,
@@ -56,7 +45,4 @@ enum result slab_json_set_string(struct slab *slab, const char *key, const char 
 enum result slab_json_record(struct slab *slab, const char *command, const char *tool, bool changed,
                              struct error *error);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -3,7 +3,10 @@
 #ifndef SLAB_RASTER_H
 #define SLAB_RASTER_H
 
-#include "file/slab_file.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "file/slab_precision.h"
 
 struct slab_raster {
   int width, height;

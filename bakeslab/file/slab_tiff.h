@@ -7,10 +7,6 @@
 #include "base/output.h"
 #include "file/slab_raster.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* The `white` of a LogLuv page: factors on XYZ before encoding that move a colour onto the
  * grid to which SGILOG32 rounds chromaticities. Where any pixel is white, that is D65, which
  * so comes back white; else the mean of all, so that a lamp of one colour keeps it. */
@@ -41,7 +37,4 @@ bool slab_tiff_logluv_holds(const float rgb[3]);
 enum result slab_tiff_write(struct output *output, const struct slab_raster *pages, int count,
                             struct error *error);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -272,8 +272,8 @@ enum result housing_parses(const struct povray *povray, const char *housing, con
     return result_fail(error, RESULT_MEMORY, "out of memory");
   files_remove_tree(directory);
   enum result result = files_make_directory(directory, error);
-  if (!result) result = files_write(directory, "scene.pov", scene, error);
-  if (!result) result = povray_run(povray, &job, error);
+  if (result == RESULT_OK) result = files_write(directory, "scene.pov", scene, error);
+  if (result == RESULT_OK) result = povray_run(povray, &job, error);
   /* A picture that cannot be written says nothing about the text. */
   if (result == RESULT_BAD && strstr(error->text, "Fatal error") &&
       !strstr(error->text, "in parser"))

@@ -69,7 +69,7 @@ static enum result run_listing(const struct povray *povray, const struct povray_
   enum result result = RESULT_OK;
   if (!list || setenv("CANNED_READS", list, 1) != 0)
     result = result_fail(error, RESULT_MEMORY, "out of memory");
-  if (!result) result = povray_run(povray, job, error);
+  if (result == RESULT_OK) result = povray_run(povray, job, error);
   unsetenv("CANNED_READS");
   free(list);
   free(folder);
@@ -91,18 +91,18 @@ enum result lamp_try(const struct povray *povray, const struct lamp_source *sour
                            .stop = stop};
   struct picture picture = {0};
   enum result result = lamp_source_link(source, directory, error);
-  if (!result) result = write_probe(directory, effects, error);
-  if (!result) {
+  if (result == RESULT_OK) result = write_probe(directory, effects, error);
+  if (result == RESULT_OK) {
     result = run_listing(povray, &job, error);
-    if (result) lamp_source_rename(source, error);
+    if (result != RESULT_OK) lamp_source_rename(source, error);
     if (result == RESULT_BAD) result_fail(error, result, "%s: %s", source->script, error->text);
   }
   lamp->own_radiosity = povray_statistic(directory, "Radiosity samples calculated:") >= 0;
-  if (!result) result = read_declarations(source, directory, lamp, error);
-  if (!result)
+  if (result == RESULT_OK) result = read_declarations(source, directory, lamp, error);
+  if (result == RESULT_OK)
     result = lamp_reads_collect(directory, source->path, source->script, &lamp->reads, error);
-  if (!result) result = povray_read_frame(&job, 0, &picture, error);
-  if (!result) read_picture(&picture, lamp);
+  if (result == RESULT_OK) result = povray_read_frame(&job, 0, &picture, error);
+  if (result == RESULT_OK) read_picture(&picture, lamp);
   picture_free(&picture);
   files_remove_tree(directory);
   return result;

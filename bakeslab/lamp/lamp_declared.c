@@ -116,7 +116,8 @@ static enum result finish(struct lamp *lamp, const struct slab *common, struct e
     for (int axis = 0; axis < 3; ++axis) slab->normal[axis] /= length;
     struct error reason;
     enum result result = slab_check(slab, &reason);
-    if (result) return result_fail(error, result, "Canned_Slab %d: %s", n + 1, reason.text);
+    if (result != RESULT_OK)
+      return result_fail(error, result, "Canned_Slab %d: %s", n + 1, reason.text);
   }
   return RESULT_OK;
 }
@@ -126,8 +127,8 @@ enum result lamp_declarations(char *text, const char *script, struct lamp *lamp,
   struct slab common = slab_default();
   struct error reason;
   enum result result = RESULT_OK;
-  for (char *line; !result && (line = strsep(&text, "\n"));)
+  for (char *line; result == RESULT_OK && (line = strsep(&text, "\n"));)
     if (*line) result = read_line(line, lamp, &common, &reason);
-  if (!result) result = finish(lamp, &common, &reason);
-  return result ? result_fail(error, result, "%s: %s", script, reason.text) : RESULT_OK;
+  if (result == RESULT_OK) result = finish(lamp, &common, &reason);
+  return result != RESULT_OK ? result_fail(error, result, "%s: %s", script, reason.text) : RESULT_OK;
 }

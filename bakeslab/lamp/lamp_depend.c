@@ -51,14 +51,14 @@ static enum result put_rule(FILE *rule, const struct lamp_reads *reads, const ch
                               : result_fail(error, RESULT_IO, "the working folder is gone");
   put_name(rule, target, true);
   putc(':', rule);
-  for (int n = 0; !result && n < reads->count; ++n) {
+  for (int n = 0; result == RESULT_OK && n < reads->count; ++n) {
     const char *name = below(folder, lamp_reads_path(reads, n));
     result = check_name(name, error);
     fputs(" \\\n  ", rule);
     put_name(rule, name, false);
   }
   putc('\n', rule);
-  for (int n = 0; !result && n < reads->count; ++n) {
+  for (int n = 0; result == RESULT_OK && n < reads->count; ++n) {
     if (!strcmp(lamp_reads_path(reads, n), script)) continue;
     putc('\n', rule);
     put_name(rule, below(folder, lamp_reads_path(reads, n)), true);
@@ -74,7 +74,7 @@ static enum result check_path(const struct lamp_reads *reads, const char *target
   enum result result = RESULT_OK;
   if (!strcmp(path, target) && strcmp(path, "-") != 0)
     result = result_fail(error, RESULT_BAD, "--depend %s: is the slab; give another file", path);
-  for (int n = 0; real && !result && n < reads->count; ++n)
+  for (int n = 0; real && result == RESULT_OK && n < reads->count; ++n)
     if (!strcmp(lamp_reads_path(reads, n), real))
       result = result_fail(error, RESULT_BAD,
                            "--depend %s: is a file that the lamp script reads; give another", path);
@@ -88,12 +88,12 @@ static enum result prepare(const struct lamp_reads *reads, const char *script, c
   char *text = NULL;
   size_t size = 0;
   enum result result = check_path(reads, target, path, error);
-  FILE *rule = result ? NULL : open_memstream(&text, &size);
+  FILE *rule = result != RESULT_OK ? NULL : open_memstream(&text, &size);
   if (rule) result = put_rule(rule, reads, script, target, error);
   bool whole = rule && fclose(rule) == 0 && text;
-  if (!whole && !result) result = result_fail(error, RESULT_MEMORY, "out of memory");
-  if (!result) result = output_begin(output, path, error);
-  if (!result && output_write(output, text, size, 0) != 0)
+  if (!whole && result == RESULT_OK) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (result == RESULT_OK) result = output_begin(output, path, error);
+  if (result == RESULT_OK && output_write(output, text, size, 0) != 0)
     result = result_fail(error, RESULT_IO, "%s: cannot be written: %m", path);
   free(text);
   return result;
@@ -111,7 +111,7 @@ enum result lamp_depend_write(const struct lamp_reads *reads, const char *script
                               const char *target, const char *path, struct error *error) {
   struct output output = {0};
   enum result result = prepare(reads, script, target, path, &output, error);
-  if (!result) result = output_commit(&output, error);
+  if (result == RESULT_OK) result = output_commit(&output, error);
   output_abandon(&output);
   return result;
 }

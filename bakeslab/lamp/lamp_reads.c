@@ -28,10 +28,11 @@ static enum result hash_file(const char *path, XXH128_hash_t *hash, struct error
     XXH3_128bits_reset(state);
   char block[65536];
   size_t n;
-  while (!result && (n = fread(block, 1, sizeof block, file)) > 0)
+  while (result == RESULT_OK && (n = fread(block, 1, sizeof block, file)) > 0)
     XXH3_128bits_update(state, block, n);
-  if (!result && ferror(file)) result = result_fail(error, RESULT_IO, "%s: cannot be read", path);
-  if (!result) *hash = XXH3_128bits_digest(state);
+  if (result == RESULT_OK && ferror(file))
+    result = result_fail(error, RESULT_IO, "%s: cannot be read", path);
+  if (result == RESULT_OK) *hash = XXH3_128bits_digest(state);
   XXH3_freeState(state);
   if (file) fclose(file);
   return result;
@@ -76,12 +77,12 @@ enum result lamp_reads_collect(const char *directory, const char *script, const 
   if (!own || (!text && errno == ENOMEM))
     result = result_fail(error, RESULT_MEMORY, "out of memory");
   char *rest = text;
-  for (char *path; own && !result && rest && *rest && (path = strsep(&rest, "\n"));)
+  for (char *path; own && result == RESULT_OK && rest && *rest && (path = strsep(&rest, "\n"));)
     if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&
         !has_path(reads, path))
       result = add_path(reads, path, error);
   /* A statically linked POV-Ray would ignore the preloaded list-maker. */
-  if (!result && !has_path(reads, script))
+  if (result == RESULT_OK && !has_path(reads, script))
     result = result_fail(error, RESULT_IO,
                          "%s: cannot find out which files the script reads, since this POV-Ray "
                          "ignores LD_PRELOAD; use a dynamically linked one",
@@ -97,7 +98,7 @@ enum result lamp_reads_unchanged(const struct lamp_reads *reads, struct error *e
     const struct lamp_read *read = &reads->files[n];
     XXH128_hash_t hash;
     enum result result = hash_file(read->path, &hash, error);
-    if (result) return result;
+    if (result != RESULT_OK) return result;
     if (!XXH128_isEqual(hash, read->hash))
       return result_fail(
           error, RESULT_BAD,

@@ -90,12 +90,12 @@ static enum result make_link(const char *directory, const char *name, const char
 enum result lamp_source_link(const struct lamp_source *source, const char *directory,
                              struct error *error) {
   enum result result = files_make_directory(directory, error);
-  if (!result) result = make_link(directory, script_link, source->path, error);
-  if (!result) result = make_link(directory, folder_link, source->folder, error);
-  if (!result) result = make_link(directory, canned_link, source->include_pov, error);
-  if (!result) result = make_link(directory, reads_link, source->reads, error);
+  if (result == RESULT_OK) result = make_link(directory, script_link, source->path, error);
+  if (result == RESULT_OK) result = make_link(directory, folder_link, source->folder, error);
+  if (result == RESULT_OK) result = make_link(directory, canned_link, source->include_pov, error);
+  if (result == RESULT_OK) result = make_link(directory, reads_link, source->reads, error);
   char name[LAMP_LINK_SIZE];
-  for (int n = 0; !result && source->libraries[n]; ++n)
+  for (int n = 0; result == RESULT_OK && source->libraries[n]; ++n)
     result = make_link(directory, library_link(n, name), source->libraries[n], error);
   return result;
 }

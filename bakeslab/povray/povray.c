@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/files.h"
+#include "file/slab_exr.h"
 #include "povray/sandbox.h"
 
 enum { EXEC_FAILED = 127 };
@@ -131,7 +132,7 @@ static void become_povray(const struct povray *povray, const struct povray_job *
 enum result povray_start(const struct povray *povray, const struct povray_job *job, pid_t *pid,
                          struct error *error) {
   enum result result = write_ini(job, error);
-  if (result) return result;
+  if (result != RESULT_OK) return result;
   pid_t parent = getpid();
   *pid = fork();
   if (*pid < 0) return result_fail(error, RESULT_IO, "fork: %s", strerror(errno));
@@ -193,7 +194,7 @@ enum result povray_run(const struct povray *povray, const struct povray_job *job
                        struct error *error) {
   pid_t pid, ended;
   enum result result = povray_start(povray, job, &pid, error);
-  if (result) return result;
+  if (result != RESULT_OK) return result;
   int status = 0;
   bool stopped = false;
   while ((ended = waitpid(pid, &status, WNOHANG)) != pid) {
@@ -247,7 +248,7 @@ enum result povray_read_frame(const struct povray_job *job, int frame, struct pi
     snprintf(path, sizeof path, "%s/frame.exr", job->directory);
   }
   enum result result = slab_exr_read(path, picture, error);
-  if (result) return result;
+  if (result != RESULT_OK) return result;
   if (picture->width == job->width && picture->height == job->height) return RESULT_OK;
   picture_free(picture);
   return result_fail(error, RESULT_BAD, "%s: is not the %d x %d picture that was asked for", path,

@@ -16,8 +16,8 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
+#include "base/picture.h"
 #include "base/result.h"
-#include "file/slab_exr.h"
 
 struct povray {
   char program[4096];

@@ -130,16 +130,16 @@ static enum result measure(const struct bake_work *work, enum effect effect,
   const struct slab *slabs = work->lamp->slabs;
   enum result result = RESULT_OK;
   bool certain = false;
-  for (int n = is_dear(effect) ? SPARSE : DENSE; n <= MOST_DIRECTIONS && !certain && !result;
-       n *= 2) {
+  for (int n = is_dear(effect) ? SPARSE : DENSE;
+       n <= MOST_DIRECTIONS && !certain && result == RESULT_OK; n *= 2) {
     const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, n, n};
     struct probe_bake without = {0}, with = {0};
     result = probe_bake(work, slabs, less, samples, 1, &without, report, error);
     certain = is_idle(work, effect, &without);
     *change = (struct probe_change){.rays = 1};
-    if (!result && !certain)
+    if (result == RESULT_OK && !certain)
       result = probe_bake(work, slabs, more, samples, 1, &with, report, error);
-    if (!result && !certain) {
+    if (result == RESULT_OK && !certain) {
       double deviation = compare_flux(&without, &with, change);
       compare_rms(&without, &with, change);
       change->rays = ratio(with.traced, without.traced);
@@ -159,7 +159,7 @@ static enum result try_effect(const struct bake_work *work, enum effect effect,
                               struct bake_report *report, struct error *error) {
   enum result result = RESULT_OK;
   bool go_on = true;
-  for (const int *step = effect_ladder(effect); *step && go_on && !result; ++step) {
+  for (const int *step = effect_ladder(effect); *step && go_on && result == RESULT_OK; ++step) {
     struct effects more = *effects;
     struct probe_change change = {0};
     int depth = 0;
@@ -186,7 +186,7 @@ enum result probe_effects(const struct bake_work *work, struct effects *effects,
   enum result result = RESULT_OK;
   *effects = (struct effects){0};
   *probe = (struct probe){0};
-  for (int k = 0; k < EFFECTS && !result; ++k)
+  for (int k = 0; k < EFFECTS && result == RESULT_OK; ++k)
     result = try_effect(work, order[k], effects, &probe->effects[order[k]], report, error);
   return result;
 }

@@ -24,14 +24,15 @@ enum result probe_bake(const struct bake_work *work, const struct slab *slabs,
   int pages = work->lamp->slab_count;
   *take = (struct probe_bake){.pages = calloc((size_t)pages, sizeof *take->pages)};
   enum result result = take->pages ? RESULT_OK : result_fail(error, RESULT_MEMORY, "out of memory");
-  for (; take->count < pages && !result; ++take->count) {
+  for (; take->count < pages && result == RESULT_OK; ++take->count) {
     struct slab *page = &take->pages[take->count];
     result = slab_copy_geometry(&slabs[take->count], page, error);
     memcpy(page->samples, samples, sizeof page->samples);
   }
   small.slabs = take->pages;
-  if (!result) result = bake_rounds_run(&small, "probe", &rounds, &own, error);
-  if (!result) result = bake_sum_finish(rounds.sum, small.look.gain, take->pages, error);
+  if (result == RESULT_OK) result = bake_rounds_run(&small, "probe", &rounds, &own, error);
+  if (result == RESULT_OK)
+    result = bake_sum_finish(rounds.sum, small.look.gain, take->pages, error);
   bake_rounds_free(&rounds);
   take->traced = own.traced;
   take->depth = own.depth;

@@ -70,13 +70,16 @@ static enum result judge_page(const struct slab *page, double distance, struct f
   int halved[SLAB_AXES];
   double at[DISTANCES];
   struct slab half = {0};
+  const struct slab_sampling unknown = {.sample_noise = NAN, .flux_noise = NAN};
   struct slab_accuracy full[DISTANCES], less[DISTANCES];
   for (int k = 0; k < DISTANCES; ++k) at[k] = distance * distances[k];
   for (int axis = 0; axis < SLAB_AXES; ++axis) halved[axis] = page->samples[axis] / 2;
   enum result result = slab_resample(page, halved, &half, error);
-  if (!result) result = slab_accuracy_estimate(page, DISTANCES, at, full, error);
-  if (!result) result = slab_accuracy_estimate(&half, DISTANCES, at, less, error);
-  for (int k = 0; k < DISTANCES && !result; ++k) {
+  if (result == RESULT_OK)
+    result = slab_accuracy_estimate(page, &unknown, DISTANCES, at, full, error);
+  if (result == RESULT_OK)
+    result = slab_accuracy_estimate(&half, &unknown, DISTANCES, at, less, error);
+  for (int k = 0; k < DISTANCES && result == RESULT_OK; ++k) {
     st[k] = make_fall(full[k].st, less[k].st);
     uv[k] = make_fall(full[k].uv, less[k].uv);
   }
@@ -112,15 +115,15 @@ static enum result judge_plane(const struct bake_work *work, const struct slab *
   enum result result = errors->slabs && errors->st && errors->uv
                            ? RESULT_OK
                            : result_fail(error, RESULT_MEMORY, "out of memory");
-  for (; errors->count < (int)count && !result; ++errors->count) {
+  for (; errors->count < (int)count && result == RESULT_OK; ++errors->count) {
     struct slab *slab = &errors->slabs[errors->count];
     result = slab_copy_geometry(&slabs[errors->count], slab, error);
     if (moved) move_plane(slab, work->options->for_distance);
   }
   effects.setting[INTERREFLECTION] = 0;
-  if (!result)
+  if (result == RESULT_OK)
     result = probe_bake(work, errors->slabs, &effects, taken, TAKEN_RAYS, &take, report, error);
-  for (int n = 0; n < errors->count && !result; ++n)
+  for (int n = 0; n < errors->count && result == RESULT_OK; ++n)
     result = judge_page(&take.pages[n], distance_of(work, &take.pages[n]), errors->st[n],
                         errors->uv[n], error);
   probe_bake_free(&take);
@@ -197,12 +200,13 @@ enum result probe_resolution(const struct bake_work *work, struct slab *slabs,
   struct choice choices[2] = {0};
   int several = options->for_distance > 0 ? 2 : 1, best = 0;
   enum result result = RESULT_OK;
-  for (int n = 0; n < several && !result; ++n) {
+  for (int n = 0; n < several && result == RESULT_OK; ++n) {
     result = judge_plane(work, slabs, n == 1, &planes[n], report, error);
-    if (!result) choices[n] = choose(&planes[n], options);
-    if (!result && n && is_better(&choices[n], &choices[0], options->tolerance)) best = n;
+    if (result == RESULT_OK) choices[n] = choose(&planes[n], options);
+    if (result == RESULT_OK && n && is_better(&choices[n], &choices[0], options->tolerance))
+      best = n;
   }
-  if (!result) {
+  if (result == RESULT_OK) {
     apply(work, &choices[best], &planes[best], slabs, resolution);
     resolution->error = choices[best].error;
     say(options, &choices[best], choices, best == 1, resolution);

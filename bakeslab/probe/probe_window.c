@@ -26,10 +26,10 @@ static void widen(const struct slab *page, int axis, const double *profile, doub
 static enum result widen_all(const struct probe_bake *take, double (*windows)[4],
                              struct error *error) {
   enum result result = RESULT_OK;
-  for (int n = 0; n < take->count && !result; ++n) {
+  for (int n = 0; n < take->count && result == RESULT_OK; ++n) {
     struct slab_profile profile;
     result = slab_profile(&take->pages[n], &profile, error);
-    for (int k = 0; k < 2 && !result; ++k)
+    for (int k = 0; k < 2 && result == RESULT_OK; ++k)
       widen(&take->pages[n], SLAB_S + k, profile.axis[SLAB_S + k], windows[n] + 2 * k);
     slab_profile_free(&profile);
   }
@@ -68,15 +68,15 @@ enum result probe_window(const struct bake_work *work, struct slab *slabs,
     for (int k = 0; k < 4; ++k) light[n][k] = k % 2 ? -INFINITY : INFINITY;
   /* The second look is for interreflection, which is dear and smooth: a coarse one will do. */
   enum result result = RESULT_OK;
-  for (int look = 0; look < looks && !result; ++look) {
+  for (int look = 0; look < looks && result == RESULT_OK; ++look) {
     int directions = look == 0 ? 24 : 10;
     const int samples[SLAB_AXES] = {positions, positions, directions, directions};
     struct probe_bake take;
     effects.setting[INTERREFLECTION] = look == 0 ? 0 : work->look.effects->setting[INTERREFLECTION];
     result = probe_bake(work, slabs, &effects, samples, 1, &take, report, error);
-    if (!result) result = widen_all(&take, light, error);
+    if (result == RESULT_OK) result = widen_all(&take, light, error);
     probe_bake_free(&take);
   }
-  for (int n = 0; n < count && !result; ++n) fit(&slabs[n], n, light[n], windows);
+  for (int n = 0; n < count && result == RESULT_OK; ++n) fit(&slabs[n], n, light[n], windows);
   return result;
 }

@@ -47,7 +47,7 @@ static enum result make_source(const struct slab *slab, struct source *source,
   }
   struct slab_profile profile;
   enum result result = slab_profile(slab, &profile, error);
-  for (int axis = 0; axis < SLAB_AXES && !result; ++axis) {
+  for (int axis = 0; axis < SLAB_AXES && result == RESULT_OK; ++axis) {
     int first = 0, last = slab->samples[axis] - 1;
     double unit = axis < SLAB_S ? width : 1, spacing = slab_spacing(slab, axis);
     while (first < last && profile.axis[axis][first] == 0) ++first;
@@ -227,7 +227,7 @@ enum result flux_box_twice(const struct slab *slab, const struct slab *other, do
   struct source source;
   enum result result = make_source(slab, &source, error);
   double all = 0, twice = 0;
-  for (int n = 0; n < TWICE_POINTS && !result; ++n) {
+  for (int n = 0; n < TWICE_POINTS && result == RESULT_OK; ++n) {
     double shares[SLAB_AXES], at[SLAB_AXES], way[3] = {0, 0, 1}, rgb[3], square = 1;
     double point[3], direction[3] = {0};
     sequence(n, shares);

@@ -20,10 +20,6 @@
 
 #include "base/result.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { SLAB_U, SLAB_V, SLAB_S, SLAB_T, SLAB_AXES }; /* indices into samples[] */
 enum { SLAB_NAME_SIZE = 128, SLAB_UNIT_SIZE = 16 };
 enum { SLAB_PADDING = 8 }; /* floats behind the last sample, so that vectors may be read there */
@@ -94,7 +90,4 @@ enum result slab_flux(const struct slab *slab, double rgb[3]);
 enum result slab_flux_metric(const struct slab *slab, double rgb[3]);
 const char *slab_flux_unit(const struct slab *slab);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

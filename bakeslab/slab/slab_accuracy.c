@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "file/slab_json.h"
 #include "slab/slab_resample.h"
 #include "slab/slab_sharpen.h"
 
@@ -81,10 +80,9 @@ static enum result halve(const struct slab *means, int first, int times, bool sh
 /* Which light is which: the slab, st halved once and twice, uv likewise. */
 enum { FULL, ST_2, ST_4, UV_2, UV_4 };
 
-static enum result make_lights(const struct slab *slab, struct light lights[LIGHTS],
+static enum result make_lights(const struct slab *slab, bool sharpened, struct light lights[LIGHTS],
                                struct error *error) {
   struct slab means = *slab;
-  bool sharpened = slab_is_sharpened(slab);
   means.rgb = NULL;
   enum result result = make_light(slab, &lights[FULL], error);
   if (sharpened && result == RESULT_OK) {
@@ -160,6 +158,7 @@ struct tap {
 
 struct patch {
   const struct slab *slab;
+  const struct slab_sampling *sampling;
   double distance;
   double at[2][SIDE]; /* receivers along u and v */
   int points[2];      /* of the aperture, along u and v */
@@ -189,9 +188,10 @@ static int points_along(const struct slab *slab, int axis, double distance) {
   return (int)fmin(points, MAX_POINTS);
 }
 
-static enum result make_patch(const struct slab *slab, double distance, const struct extent *extent,
-                              struct patch *patch, struct error *error) {
-  *patch = (struct patch){.slab = slab, .distance = distance};
+static enum result make_patch(const struct slab *slab, const struct slab_sampling *sampling,
+                              double distance, const struct extent *extent, struct patch *patch,
+                              struct error *error) {
+  *patch = (struct patch){.slab = slab, .sampling = sampling, .distance = distance};
   place_receivers(extent, patch);
   for (int axis = 0; axis < 2; ++axis) patch->points[axis] = points_along(slab, axis, distance);
   size_t first = (size_t)patch->points[0] * SIDE, second = (size_t)patch->points[1] * SIDE;
@@ -336,11 +336,7 @@ static bool square_weights(const struct patch *patch, int axis, double *squares)
 static enum result noise_of(const struct patch *patch, const struct extent *extent, double level,
                             double *noise, struct error *error) {
   double squares[2][SIDE], sum = 0;
-  unsigned long lost = slab_json_lost();
-  double sample = slab_json_get_number(patch->slab, "provenance", "noise", "sample");
-  double flux = slab_json_get_number(patch->slab, "provenance", "noise", "flux");
   *noise = NAN;
-  if (slab_json_lost() != lost) return result_fail(error, RESULT_MEMORY, "out of memory");
   for (int axis = 0; axis < 2; ++axis)
     if (!square_weights(patch, axis, squares[axis]))
       return result_fail(error, RESULT_MEMORY, "out of memory");
@@ -350,48 +346,63 @@ static enum result noise_of(const struct patch *patch, const struct extent *exte
                          (patch->distance * patch->distance);
       sum += squares[0][x] * squares[1][y] / (r * r * r * r);
     }
-  if (level > 0) *noise = hypot(sample * sqrt(sum / extent->share) / (SIDE * level), flux);
+  const struct slab_sampling *known = patch->sampling;
+  if (level > 0)
+    *noise =
+        hypot(known->sample_noise * sqrt(sum / extent->share) / (SIDE * level), known->flux_noise);
   return RESULT_OK;
 }
 
-/* Fills one floor; `e` has room for the irradiance by each light. */
-static enum result find_floor(const struct patch *patch, const struct light *lights,
-                              const struct extent *extent, double (*e)[SIDE * SIDE],
-                              struct slab_accuracy *floor, struct error *error) {
-  bool sharpened = slab_is_sharpened(patch->slab);
-  *floor = (struct slab_accuracy){.distance = patch->distance, .st = NAN, .uv = NAN};
+/* Fills one accuracy; `e` has room for the irradiance by each light. */
+static enum result find_accuracy(const struct patch *patch, const struct light *lights,
+                                 const struct extent *extent, double (*e)[SIDE * SIDE],
+                                 struct slab_accuracy *accuracy, struct error *error) {
+  *accuracy = (struct slab_accuracy){.distance = patch->distance, .st = NAN, .uv = NAN};
   memset(e, 0, LIGHTS * sizeof *e);
   for (int k = LIGHTS - 1; k >= FULL; --k) /* FULL last: it leaves its taps */
     if (lights[k].luminance) light_patch(patch, &lights[k], e[k]);
   double level = rms(e[FULL]), scale = level > 0 ? 1 / level : 0;
-  enum result result = noise_of(patch, extent, level, &floor->noise, error);
+  enum result result = noise_of(patch, extent, level, &accuracy->noise, error);
   if (lights[ST_4].luminance)
-    floor->st = scale * extrapolate(e[FULL], e[ST_2], e[ST_4], slowest_st,
-                                    sharpened ? fastest_sharpened : fastest);
+    accuracy->st = scale * extrapolate(e[FULL], e[ST_2], e[ST_4], slowest_st,
+                                       patch->sampling->sharpened ? fastest_sharpened : fastest);
   if (lights[UV_4].luminance)
-    floor->uv = scale * extrapolate(e[FULL], e[UV_2], e[UV_4], slowest_uv, fastest);
+    accuracy->uv = scale * extrapolate(e[FULL], e[UV_2], e[UV_4], slowest_uv, fastest);
   /* Both blur the irradiance, and may do so the same way: they add up by receiver. */
   for (int n = 0; n < SIDE * SIDE; ++n) e[FULL][n] = e[ST_2][n] + e[UV_2][n];
-  bool nothing = isnan(floor->st) && isnan(floor->uv) && isnan(floor->noise);
-  floor->all = nothing ? NAN : hypot(scale * rms(e[FULL]), isnan(floor->noise) ? 0 : floor->noise);
+  bool nothing = isnan(accuracy->st) && isnan(accuracy->uv) && isnan(accuracy->noise);
+  accuracy->all =
+      nothing ? NAN : hypot(scale * rms(e[FULL]), isnan(accuracy->noise) ? 0 : accuracy->noise);
   return result;
 }
 
-enum result slab_accuracy_estimate(const struct slab *slab, int count, const double *distances,
-                                   struct slab_accuracy *floors, struct error *error) {
+enum result slab_accuracy_estimate(const struct slab *slab, const struct slab_sampling *sampling,
+                                   int count, const double *distances,
+                                   struct slab_accuracy *accuracy, struct error *error) {
   struct light lights[LIGHTS] = {0};
   struct extent extent = {0};
   double(*e)[SIDE * SIDE] = malloc(LIGHTS * sizeof *e);
-  enum result result =
-      e ? make_lights(slab, lights, error) : result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result = e ? make_lights(slab, sampling->sharpened, lights, error)
+                         : result_fail(error, RESULT_MEMORY, "out of memory");
   if (result == RESULT_OK) result = find_extent(slab, &lights[FULL], &extent, error);
   for (int n = 0; n < count && result == RESULT_OK; ++n) {
     struct patch patch;
-    result = make_patch(slab, distances[n], &extent, &patch, error);
-    if (result == RESULT_OK) result = find_floor(&patch, lights, &extent, e, &floors[n], error);
+    result = make_patch(slab, sampling, distances[n], &extent, &patch, error);
+    if (result == RESULT_OK)
+      result = find_accuracy(&patch, lights, &extent, e, &accuracy[n], error);
     free_patch(&patch);
   }
   for (int k = 0; k < LIGHTS; ++k) free(lights[k].luminance);
   free(e);
   return result;
+}
+
+enum result slab_accuracy_table(const struct slab *slab, const struct slab_sampling *sampling,
+                                struct slab_accuracy accuracy[SLAB_ACCURACY_DISTANCES],
+                                struct error *error) {
+  double distances[SLAB_ACCURACY_DISTANCES];
+  for (int n = 0; n < SLAB_ACCURACY_DISTANCES; ++n)
+    distances[n] = slab_accuracy_apertures[n] * slab_aperture(slab);
+  return slab_accuracy_estimate(slab, sampling, SLAB_ACCURACY_DISTANCES, distances, accuracy,
+                                error);
 }

@@ -11,10 +11,6 @@
 
 #include "slab/slab.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* Relative RMS over a patch that faces the aperture and holds all of the light: the RMS of
  * the error of irradiance (luminance) over the RMS of irradiance. NAN: not known. */
 struct slab_accuracy {
@@ -30,12 +26,22 @@ enum { SLAB_ACCURACY_DISTANCES = 3 };
 extern const double slab_accuracy_apertures[SLAB_ACCURACY_DISTANCES];
 double slab_aperture(const struct slab *slab);
 
-/* Fills floors[count] for the given distances, in lamp units. A slab without light, or
- * whose light goes by all of a patch, has the error 0. */
-enum result slab_accuracy_estimate(const struct slab *slab, int count, const double *distances,
-                                   struct slab_accuracy *floors, struct error *error);
+/* How a slab's samples were taken: slab_json_sampling. */
+struct slab_sampling {
+  bool points;                     /* rather than means over their cells */
+  bool sharpened;                  /* slab_sharpen.h */
+  double sample_noise, flux_noise; /* as the bake recorded them (bake_sum.h); NAN: not known */
+};
 
-#ifdef __cplusplus
-}
-#endif
+/* Fills accuracy[count] for the given distances, in lamp units. A slab without light, or
+ * whose light goes by all of a patch, has the error 0. */
+enum result slab_accuracy_estimate(const struct slab *slab, const struct slab_sampling *sampling,
+                                   int count, const double *distances,
+                                   struct slab_accuracy *accuracy, struct error *error);
+
+/* The same at slab_accuracy_apertures. */
+enum result slab_accuracy_table(const struct slab *slab, const struct slab_sampling *sampling,
+                                struct slab_accuracy accuracy[SLAB_ACCURACY_DISTANCES],
+                                struct error *error);
+
 #endif

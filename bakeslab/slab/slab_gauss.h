@@ -3,10 +3,6 @@
 #ifndef SLAB_GAUSS_H
 #define SLAB_GAUSS_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { SLAB_GAUSS_MAX = 24 };
 
 /* The rule of n <= SLAB_GAUSS_MAX nodes on [-1, 1]; weights sum to 2. */
@@ -22,7 +18,4 @@ int slab_gauss_compress(int count, const double *x, const double *w, int n, doub
  * `tolerance` in a function with its nearest poles at +-i. */
 int slab_gauss_order(double low, double high, double tolerance);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -4,10 +4,6 @@
 
 #include "slab/slab.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* axis[a][k] is the mean of |L| (sum of the channels) over all samples with index k along
  * axis a. Free it with slab_profile_free in any case. */
 struct slab_profile {
@@ -27,7 +23,4 @@ void slab_profile_free(struct slab_profile *profile);
 double slab_profile_cut_off(const struct slab_profile *profile, int axis, int end);
 double slab_profile_limit(int axis);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -4,10 +4,6 @@
 
 #include "slab/slab.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* A slab of the same light on `samples` cells: each axis is handled by itself.
  * Fewer samples are means over the new cells, in which an old cell counts by
  * the share that overlaps (any ratio; the mean of all samples is kept). More
@@ -22,7 +18,4 @@ enum result slab_resample(const struct slab *in, const int samples[SLAB_AXES], s
 enum result slab_crop(const struct slab *in, const int first[SLAB_AXES], const int end[SLAB_AXES],
                       struct slab *out, struct error *error);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "file/slab_json.h"
-
 enum { PASSES = 4 }; /* of limiting: each gives what the ones before withheld another chance */
 
 /* The diagonal: a border's half cell is constant. */
@@ -45,39 +43,39 @@ void slab_unsharpen_line(double *line, int count, size_t stride) {
 
 /* ---- A view ---- */
 
-struct seen_page {
+struct view {
   int ns, nt;
   size_t count;                   /* 3 ns nt */
   double *mean, *sharp, *give[2]; /* give: what a sample gives to the next along s, t */
   double *share, *scratch;        /* share: of its gifts that a sample can afford */
 };
 
-static void free_view(struct seen_page *view) {
+static void free_view(struct view *view) {
   free(view->mean);
 }
 
-static enum result make_view(const struct slab *slab, struct seen_page *view, struct error *error) {
+static enum result make_view(const struct slab *slab, struct view *view, struct error *error) {
   int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
   size_t count = 3 * (size_t)ns * (size_t)nt, longest = (size_t)(ns > nt ? ns : nt);
   double *room = calloc(5 * count + 2 * longest, sizeof *room);
   if (!room) return result_fail(error, RESULT_MEMORY, "out of memory");
-  *view = (struct seen_page){.ns = ns,
-                             .nt = nt,
-                             .count = count,
-                             .mean = room,
-                             .sharp = room + count,
-                             .give = {room + 2 * count, room + 3 * count},
-                             .share = room + 4 * count,
-                             .scratch = room + 5 * count};
+  *view = (struct view){.ns = ns,
+                        .nt = nt,
+                        .count = count,
+                        .mean = room,
+                        .sharp = room + count,
+                        .give = {room + 2 * count, room + 3 * count},
+                        .share = room + 4 * count,
+                        .scratch = room + 5 * count};
   return RESULT_OK;
 }
 
-static size_t step(const struct seen_page *view, int axis) {
+static size_t step(const struct view *view, int axis) {
   return axis ? 3 * (size_t)view->ns : 3;
 }
 
 /* Runs along all lines of the view, of one axis (0: s, 1: t) and all channels. */
-static void each_line(const struct seen_page *view, double *x, int axis, bool sharpen) {
+static void each_line(const struct view *view, double *x, int axis, bool sharpen) {
   size_t lines = (size_t)(axis ? view->ns : view->nt), count = (size_t)(axis ? view->nt : view->ns);
   for (size_t line = 0; line < lines; ++line)
     for (size_t c = 0; c < 3; ++c) {
@@ -91,7 +89,7 @@ static void each_line(const struct seen_page *view, double *x, int axis, bool sh
 
 /* What the exact solution moves between neighbours: x - A x is the difference of (x[k+1]
  * - x[k])/8 on a cell's two sides. Along s of x, along t of what A makes of x along s. */
-static void find_gifts(struct seen_page *view) {
+static void find_gifts(struct view *view) {
   memcpy(view->share, view->sharp, view->count * sizeof *view->share);
   for (int axis = 0; axis < 2; ++axis) {
     size_t next = step(view, axis), last = (size_t)(axis ? view->nt : view->ns) - 1;
@@ -104,7 +102,7 @@ static void find_gifts(struct seen_page *view) {
 }
 
 /* The share of its gifts that each sample can afford, all channels alike. */
-static void find_shares(struct seen_page *view) {
+static void find_shares(struct view *view) {
   for (size_t n = 0; n < view->count; n += 3) {
     double least = 1;
     for (size_t c = n; c < n + 3; ++c) {
@@ -122,7 +120,7 @@ static void find_shares(struct seen_page *view) {
 }
 
 /* Moves the part of each gift that its giver can afford, and keeps the rest of it. */
-static void give(struct seen_page *view) {
+static void give(struct view *view) {
   for (int axis = 0; axis < 2; ++axis) {
     size_t next = step(view, axis);
     for (size_t n = 0; n + next < view->count; n += 3) {
@@ -142,7 +140,7 @@ static void give(struct seen_page *view) {
 }
 
 /* From view->mean to view->sharp, without negative samples where there were none. */
-static void limit(struct seen_page *view) {
+static void limit(struct view *view) {
   find_gifts(view);
   memcpy(view->sharp, view->mean, view->count * sizeof *view->sharp);
   for (int pass = 0; pass < PASSES; ++pass) {
@@ -159,7 +157,7 @@ static void limit(struct seen_page *view) {
 
 enum task { SHARPEN, SHARPEN_POSITIVE, UNSHARPEN };
 
-static void do_view(struct seen_page *view, enum task task) {
+static void do_view(struct view *view, enum task task) {
   memcpy(view->sharp, view->mean, view->count * sizeof *view->sharp);
   for (int axis = 0; axis < 2; ++axis) each_line(view, view->sharp, axis, task != UNSHARPEN);
   bool negative = false;
@@ -168,7 +166,7 @@ static void do_view(struct seen_page *view, enum task task) {
 }
 
 static enum result do_slab(struct slab *slab, enum task task, struct error *error) {
-  struct seen_page view = {0};
+  struct view view = {0};
   enum result result = make_view(slab, &view, error);
   if (result != RESULT_OK) return result;
   size_t width = step(&view, 1);
@@ -194,17 +192,4 @@ enum result slab_sharpen(struct slab *slab, enum slab_sharpening how, struct err
 
 enum result slab_unsharpen(struct slab *slab, struct error *error) {
   return do_slab(slab, UNSHARPEN, error);
-}
-
-/* ---- Provenance ---- */
-
-enum result slab_sharpen_record(struct slab *slab, enum slab_sharpening how, struct error *error) {
-  return slab_json_set_string(slab, "provenance", "sharpened",
-                              how == SLAB_SHARPEN_POSITIVE ? "st, not below zero" : "st", error);
-}
-
-bool slab_is_sharpened(const struct slab *slab) {
-  char *how = slab_json_get_string(slab, "provenance", "sharpened");
-  free(how);
-  return how != NULL;
 }

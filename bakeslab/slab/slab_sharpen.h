@@ -12,10 +12,6 @@
 
 #include "slab/slab.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum slab_sharpening {
   SLAB_SHARPEN_EXACT,   /* keeps all cell means; samples beside edges may be negative */
   SLAB_SHARPEN_POSITIVE /* keeps the sums of views; no sample becomes negative */
@@ -36,11 +32,4 @@ enum result slab_unsharpen(struct slab *slab, struct error *error);
 void slab_sharpen_line(double *line, int count, size_t stride, double *scratch);
 void slab_unsharpen_line(double *line, int count, size_t stride);
 
-/* Provenance keeps "sharpened": how slab_sharpen was called. */
-enum result slab_sharpen_record(struct slab *slab, enum slab_sharpening how, struct error *error);
-bool slab_is_sharpened(const struct slab *slab);
-
-#ifdef __cplusplus
-}
-#endif
 #endif

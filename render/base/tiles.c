@@ -49,9 +49,9 @@ static void *run(void *argument) {
     if (tile >= tiles->count) break;
     struct error error = {""};
     enum result result = tiles->work(tiles->context, tile, worker->number, &error);
-    if (result) note_failure(tiles, tile, result, &error);
+    if (result != RESULT_OK) note_failure(tiles, tile, result, &error);
     int done = atomic_fetch_add(&tiles->done, 1) + 1;
-    if (worker->number == 0 && tiles->progress && !result)
+    if (worker->number == 0 && tiles->progress && result == RESULT_OK)
       tiles->progress(tiles->context, (double)done / tiles->count);
   }
   return NULL;

@@ -10,6 +10,7 @@
 #include "cmd/outputs.h"
 #include "cmd/picture_options.h"
 #include "cmd/stats.h"
+#include "file/slab_exr.h"
 #include "picture/image.h"
 #include "picture/preview.h"
 #include "scene/scene.h"
@@ -96,7 +97,7 @@ static enum result check_method(const struct arguments *arguments, const struct 
                                 struct error *error) {
   if (arguments->options.method != GATHER_CLOSED) return RESULT_OK;
   for (int k = 0; k < scene->material_count; ++k)
-    if (shade_glossy(&scene->materials[k]))
+    if (scene_glossy(&scene->materials[k]))
       return result_fail(error, RESULT_BAD,
                          "%s: material %s has a highlight, which --method closed cannot do; take "
                          "another, such as reference",
@@ -144,7 +145,7 @@ static void tell_effects(const struct arguments *arguments, const struct scene *
                          struct stats *stats) {
   int glossy = 0, textured = 0;
   for (int k = 0; k < scene->material_count; ++k) {
-    glossy += shade_glossy(&scene->materials[k]);
+    glossy += scene_glossy(&scene->materials[k]);
     textured += scene->materials[k].texture >= 0;
   }
   if (arguments->no_shadows)

@@ -110,10 +110,10 @@ static enum result prepare(struct work *work, const struct gl_sum_settings *gl,
 
 static void finish(struct work *work, struct stats *stats) {
   for (int k = 0; work->gather && k < work->threads; ++k) {
-    if (work->gather[k]) stats_add_counts(&stats->counts, gather_counts(work->gather[k]));
+    if (work->gather[k]) gather_counts_add(&stats->counts, gather_counts(work->gather[k]));
     gather_free(work->gather[k]);
   }
-  if (work->gl) stats_add_counts(&stats->counts, gl_gather_counts(work->gl));
+  if (work->gl) gather_counts_add(&stats->counts, gl_gather_counts(work->gl));
   gl_gather_free(work->gl);
   free(work->gather);
   free(work->gathered);

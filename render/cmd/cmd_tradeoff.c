@@ -160,7 +160,7 @@ static enum result load(const struct arguments *arguments, struct world *world,
 
 static bool any_gloss(const struct scene *scene) {
   for (int k = 0; k < scene->material_count; ++k)
-    if (shade_glossy(&scene->materials[k])) return true;
+    if (scene_glossy(&scene->materials[k])) return true;
   return false;
 }
 

@@ -2,7 +2,6 @@
 #include "cmd/stats.h"
 
 #include <errno.h>
-#include <jansson.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -11,8 +10,8 @@
 
 #include "base/output.h"
 #include "base/progress.h"
+#include "file/json_text.h"
 #include "file/slab_json.h"
-#include "slab/slab_accuracy.h"
 
 void stats_phase(struct stats *stats, const char *name) {
   double time = progress_now();
@@ -30,17 +29,6 @@ void stats_effect(struct stats *stats, const char *name, bool simulated, const c
   va_start(arguments, format);
   vsnprintf(effect->reason, sizeof effect->reason, format, arguments);
   va_end(arguments);
-}
-
-void stats_add_counts(struct gather_counts *sum, const struct gather_counts *counts) {
-  sum->receivers += counts->receivers;
-  sum->microlights += counts->microlights;
-  sum->nodes += counts->nodes;
-  sum->black += counts->black;
-  sum->shadow_rays += counts->shadow_rays;
-  sum->open_views += counts->open_views;
-  sum->pages_behind += counts->pages_behind;
-  sum->error = fmax(sum->error, counts->error);
 }
 
 static json_t *seconds_of(const struct stats *stats) {
@@ -65,22 +53,11 @@ static json_t *effects_of(const struct stats *stats) {
   return effects;
 }
 
-/* A command line may hold any bytes; JSON only UTF-8. */
-static json_t *text_of(const char *text) {
-  json_t *value = json_string(text);
-  char *plain = value ? NULL : strdup(text);
-  for (char *c = plain; c && *c; ++c)
-    if ((unsigned char)*c >= 0x80) *c = '?';
-  if (plain) value = json_string(plain);
-  free(plain);
-  return value;
-}
-
 static json_t *object_of(const struct stats *stats) {
   const struct gather_counts *counts = &stats->counts;
   double error = isfinite(counts->error) ? counts->error : -1;
   json_t *object = json_object();
-  json_object_set_new(object, "command", text_of(stats->command));
+  json_object_set_new(object, "command", json_any_string(stats->command));
   json_object_set_new(object, "method", json_string(stats->method));
   json_object_set_new(object, "tolerance", json_real(stats->tolerance));
   json_object_set_new(object, "threads", json_integer(stats->threads));
@@ -98,31 +75,29 @@ static json_t *object_of(const struct stats *stats) {
 }
 
 /* Appends what a page errs by itself. */
-static enum result add_floors(json_t *list, const struct light *light, int page,
-                              struct error *error) {
+static enum result add_accuracy(json_t *list, const struct light *light, int page,
+                                struct error *error) {
   const struct slab *slab = &light->pages[page].slab;
-  double distances[SLAB_ACCURACY_DISTANCES];
-  struct slab_accuracy floors[SLAB_ACCURACY_DISTANCES];
-  for (int k = 0; k < SLAB_ACCURACY_DISTANCES; ++k)
-    distances[k] = slab_accuracy_apertures[k] * slab_aperture(slab);
-  enum result result =
-      slab_accuracy_estimate(slab, SLAB_ACCURACY_DISTANCES, distances, floors, error);
+  struct slab_sampling sampling;
+  struct slab_accuracy accuracy[SLAB_ACCURACY_DISTANCES];
+  enum result result = slab_json_sampling(slab, &sampling, error);
+  if (result == RESULT_OK) result = slab_accuracy_table(slab, &sampling, accuracy, error);
   for (int k = 0; k < SLAB_ACCURACY_DISTANCES && result == RESULT_OK; ++k) {
-    json_t *about = isfinite(floors[k].all) ? json_real(floors[k].all) : json_null();
-    json_array_append_new(list, json_pack("{s:o, s:i, s:f, s:o}", "light", text_of(light->path),
-                                          "page", page + 1, "apertures", slab_accuracy_apertures[k],
-                                          "about", about));
+    json_t *about = isfinite(accuracy[k].all) ? json_real(accuracy[k].all) : json_null();
+    json_array_append_new(list, json_pack("{s:o, s:i, s:f, s:o}", "light",
+                                          json_any_string(light->path), "page", page + 1,
+                                          "apertures", slab_accuracy_apertures[k], "about", about));
   }
   return result;
 }
 
-static enum result set_floors(json_t *object, const struct light *lights, int count,
-                              struct error *error) {
+static enum result set_accuracy(json_t *object, const struct light *lights, int count,
+                                struct error *error) {
   enum result result = RESULT_OK;
   json_t *list = json_array();
   for (int l = 0; l < count; ++l)
     for (int page = 0; page < lights[l].count && result == RESULT_OK; ++page)
-      result = add_floors(list, &lights[l], page, error);
+      result = add_accuracy(list, &lights[l], page, error);
   json_object_set_new(object, "slab_errors", list);
   return result;
 }
@@ -131,13 +106,13 @@ enum result stats_write(struct stats *stats, const struct light *lights, int cou
                         const char *path, struct error *error) {
   stats_phase(stats, NULL);
   struct output output = {0};
-  unsigned long lost = slab_json_lost();
+  unsigned long mark = json_mark();
   json_t *object = object_of(stats);
-  enum result result = set_floors(object, lights, count, error);
-  char *text = json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+  enum result result = set_accuracy(object, lights, count, error);
+  char *text = NULL;
+  if (result == RESULT_OK)
+    result = json_text(object, mark, JSON_INDENT(2) | JSON_REAL_PRECISION(6), &text, error);
   size_t length = text ? strlen(text) : 0;
-  if (result == RESULT_OK && (!text || slab_json_lost() != lost))
-    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
   if (result == RESULT_OK) {
     text[length] = '\n'; /* in place of the final zero */
     result = output_begin(&output, path, error);

@@ -47,9 +47,6 @@ void stats_phase(struct stats *stats, const char *name);
 void stats_effect(struct stats *stats, const char *name, bool simulated, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Adds what one thread did: sums, and the larger error. */
-void stats_add_counts(struct gather_counts *sum, const struct gather_counts *counts);
-
 /* Writes the object, whole or not at all; "-" is stdout. Ends the phase that goes on. Estimates
  * the slabs' own errors, which takes a moment. */
 enum result stats_write(struct stats *stats, const struct light *lights, int count,

@@ -31,7 +31,7 @@ static const double least_share = 1e-4, margin = 0.7, clipped_margin = 0.4;
 static const double rounding = 5e-7;
 
 struct cut_work {
-  struct cut_seen view;
+  struct cut_seen seen;
   struct cut_views *views[CUT_TOGETHER]; /* owned */
   double *irradiance[CUT_TOGETHER];      /* of those that wait, */
   double least[CUT_TOGETHER];            /* and what it is at least */
@@ -58,7 +58,7 @@ struct cut_work *cut_work_make(void) {
 
 void cut_work_free(struct cut_work *work) {
   if (!work) return;
-  cut_seen_free(&work->view);
+  cut_seen_free(&work->seen);
   for (int k = 0; k < CUT_TOGETHER; ++k) cut_views_free(work->views[k]);
   free(work);
 }
@@ -66,14 +66,14 @@ void cut_work_free(struct cut_work *work) {
 /* What it costs otherwise: all views at once, and with how many nodes; or, where these are not
  * exact enough, the micro lights, summed by pi or else by Gauss rules. */
 static double find_budget(struct cut_work *work) {
-  const struct cut_seen *sees = &work->view;
-  work->nodes = cut_views_nodes(sees->view, work->tolerance, &work->nodes_error);
-  if (work->nodes > 0) return cut_views_price(sees->view, work->nodes);
+  const struct cut_seen *sees = &work->seen;
+  work->nodes = cut_views_nodes(sees->page, work->tolerance, &work->nodes_error);
+  if (work->nodes > 0) return cut_views_price(sees->page, work->nodes);
   double strips[2], widest = 0;
   for (int axis = 0; axis < 2; ++axis) {
-    const struct light_axis *along = &sees->view->page->axes[axis];
+    const struct light_axis *along = &sees->page->page->axes[axis];
     const double near = along->near_step * sees->per_height;
-    const double far = along->far_step / fabs(along->kappa * sees->view->height - 1);
+    const double far = along->far_step / fabs(along->kappa * sees->page->height - 1);
     const double cells = 2 * along->half / fabs(along->far_step) * fabs(sees->w);
     const double share = cells > along->far_count ? along->far_count / cells : 1;
     strips[axis] = 1 + cells * share + share * along->near_count;
@@ -91,7 +91,7 @@ static double error_of(const struct cut_node *node) {
 }
 
 static double node_price(const struct cut_work *work, int level) {
-  return node_cost + sample_cost * work->view.level[level].samples;
+  return node_cost + sample_cost * work->seen.level[level].samples;
 }
 
 static void count_node(struct cut_work *work, const struct cut_node *node, double sign) {
@@ -130,7 +130,7 @@ static void add_block(struct cut_work *work, int level, const int from[2], const
   struct cut_node node;
   for (int q = from[1]; q < to[1]; ++q)
     for (int p = from[0]; p < to[0]; ++p) {
-      if (!cut_seen_estimate(&work->view, level, (int[2]){p, q}, &node)) continue;
+      if (!cut_seen_estimate(&work->seen, level, (int[2]){p, q}, &node)) continue;
       push(work, &node);
       ++work->visited;
     }
@@ -150,7 +150,7 @@ static bool no_hope(const struct cut_work *work, double matter, double error, do
 /* Refines until the error is allowed. `more` is how much more light there is than the nodes'
  * estimates say. False: too expensive. */
 static bool refine(struct cut_work *work, double tolerance, double least, double more) {
-  const struct cut_tree *tree = work->view.tree;
+  const struct cut_tree *tree = work->seen.tree;
   while (work->count > 0) {
     const double light = work->light + more, error = error_sum(work);
     const double allowed = tolerance * (light > least ? light : least);
@@ -162,7 +162,7 @@ static bool refine(struct cut_work *work, double tolerance, double least, double
     if (work->visited > 4 && work->square > 0 && no_hope(work, matter * matter, error, allowed))
       return false;
     pop(work);
-    cut_seen_prepare(&work->view, top.level + 1);
+    cut_seen_prepare(&work->seen, top.level + 1);
     const struct cut_interval *u = &tree->axes[0].level[top.level][top.at[0]];
     const struct cut_interval *v = &tree->axes[1].level[top.level][top.at[1]];
     add_block(work, top.level + 1, (int[2]){u->child, v->child},
@@ -182,7 +182,7 @@ static bool sample_hope(const struct cut_work *work, int level, const int from[2
     int at[2];
     for (int axis = 0; axis < 2; ++axis)
       at[axis] = from[axis] + (to[axis] - from[axis]) * (k >> axis & 1 ? 3 : 1) / 4;
-    if (!cut_seen_estimate(&work->view, level, at, &node)) continue;
+    if (!cut_seen_estimate(&work->seen, level, at, &node)) continue;
     error += error_of(&node);
     light += fabs(node.light);
   }
@@ -191,14 +191,14 @@ static bool sample_hope(const struct cut_work *work, int level, const int from[2
 
 /* The first cut: the first level whose nodes are narrow enough. False: no hope. */
 static bool start(struct cut_work *work, double tolerance) {
-  const struct cut_tree *tree = work->view.tree;
+  const struct cut_tree *tree = work->seen.tree;
   int number = 0, from[2], to[2];
-  for (cut_seen_prepare(&work->view, 0); work->view.level[number].wide;) {
+  for (cut_seen_prepare(&work->seen, 0); work->seen.level[number].wide;) {
     if (++number == tree->levels) return false;
-    cut_seen_prepare(&work->view, number);
+    cut_seen_prepare(&work->seen, number);
   }
   for (int axis = 0; axis < 2; ++axis) {
-    const struct cut_spot *spots = work->view.level[number].spots[axis];
+    const struct cut_spot *spots = work->seen.level[number].spots[axis];
     int count = tree->axes[axis].count[number];
     for (from[axis] = 0; from[axis] < count && !spots[from[axis]].seen;) ++from[axis];
     for (to[axis] = from[axis]; to[axis] < count && spots[to[axis]].seen;) ++to[axis];
@@ -217,14 +217,14 @@ static bool start(struct cut_work *work, double tolerance) {
 /* ---- The sum ---- */
 
 /* Whether all of the aperture is above the tangent plane. */
-static bool above(const struct seen_page *view) {
-  const double per_height = 1 / view->height;
+static bool above(const struct seen_page *seen) {
+  const double per_height = 1 / seen->height;
   double low[2], high[2], range[2];
   for (int axis = 0; axis < 2; ++axis) {
-    low[axis] = (-view->page->axes[axis].half - view->foot[axis]) * per_height;
-    high[axis] = (view->page->axes[axis].half - view->foot[axis]) * per_height;
+    low[axis] = (-seen->page->axes[axis].half - seen->foot[axis]) * per_height;
+    high[axis] = (seen->page->axes[axis].half - seen->foot[axis]) * per_height;
   }
-  kernel_heights(&view->kernel, low, high, range);
+  kernel_heights(&seen->kernel, low, high, range);
   return range[0] > 0 && isfinite(range[1]);
 }
 
@@ -237,18 +237,18 @@ static bool is_clipped(const struct cut_seen *sees) {
 
 /* A cut's sum. False: it is too expensive. */
 static bool sum_cut(struct cut_work *work, double floor, double irradiance[3], double *predicted) {
-  const struct cut_tree *tree = work->view.tree;
-  const double per_height = work->view.per_height;
+  const struct cut_tree *tree = work->seen.tree;
+  const double per_height = work->seen.per_height;
   const double sent = fmin(tree->brightest * per_height * per_height, tree->hemisphere);
   const double least = fmax(floor, least_share * sent);
   double aim = margin * work->tolerance - rounding, more = 0, error = 0, most = 0;
   if (!(aim > 0) || !start(work, aim)) return false;
-  if (is_clipped(&work->view)) aim *= clipped_margin;
+  if (is_clipped(&work->seen)) aim *= clipped_margin;
   for (int round = 0; round < ROUNDS; ++round) {
     double rgb[3] = {0}, bent = 0;
     if (!refine(work, aim, least, more)) return false;
     for (int k = 0; k < work->count; ++k)
-      if (!cut_seen_light(&work->view, &work->heap[k], rgb, &bent)) return false;
+      if (!cut_seen_light(&work->seen, &work->heap[k], rgb, &bent)) return false;
     most = fmax(fmax(fmax(rgb[0], rgb[1]), rgb[2]), least);
     error = error_sum(work) + bent;
     for (int c = 0; c < 3; ++c) irradiance[c] = fmax(rgb[c], tree->least);
@@ -274,7 +274,7 @@ bool cut_sum(const struct cut_tree *tree, const struct seen_page *from, double t
              double floor, struct cut_work *work, double irradiance[3], struct cut_counts *counts) {
   const struct seen_page scaled = cut_tree_view(tree, from), *view = &scaled;
   if (view->kernel.shininess > 0 || !(view->height > 0) || !above(view)) return false;
-  if (!cut_seen_begin(tree, view, &work->view)) {
+  if (!cut_seen_begin(tree, view, &work->seen)) {
     counts->no_memory = true;
     return false;
   }

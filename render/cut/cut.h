@@ -62,7 +62,7 @@ void cut_work_free(struct cut_work *work); /* NULL allowed */
 /* The light of the page of the tree, for a receiver who sees all of it. False: not done, the micro
  * lights do it better. `floor` is an irradiance, or 0. Sums over all views at once wait for each
  * other: `irradiance` is written by cut_finish, at the latest. */
-bool cut_sum(const struct cut_tree *tree, const struct seen_page *view, double tolerance,
+bool cut_sum(const struct cut_tree *tree, const struct seen_page *seen, double tolerance,
              double floor, struct cut_work *work, double irradiance[3], struct cut_counts *counts);
 void cut_finish(struct cut_work *work);
 

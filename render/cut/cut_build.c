@@ -78,10 +78,10 @@ static void add_node(const float *child, size_t texels, const struct share *shar
 /* Adds a single view. */
 static void add_view(const struct light_page *page, const int at[2], const struct share *share,
                      float *out) {
-  const struct seen_page view = {.page = page};
+  const struct seen_page seen = {.page = page};
   for (int l = 0; l < page->axes[1].far_count; ++l) {
-    const float *from = page->slab.rgb + seen_page_offset(&view, 1, at[1], l) +
-                        seen_page_offset(&view, 0, at[0], 0);
+    const float *from = page->slab.rgb + seen_page_offset(&seen, 1, at[1], l) +
+                        seen_page_offset(&seen, 0, at[0], 0);
     for (int k = 0; k < page->axes[0].far_count; ++k, from += 3, out += CUT_FLOATS)
       for (int c = 0; c < 3; ++c) {
         float mean = share->mean[0] * from[c], slope = share->slope[0] * from[c];

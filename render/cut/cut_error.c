@@ -140,7 +140,7 @@ static void add_columns(const simd_float4 *along, const struct weights *weights,
 static void find_off(const struct cut_tree *tree, int level, const int at[2], double w,
                      double offset, struct cut_error_scratch *scratch) {
   const struct light_axis *axes = tree->page->axes;
-  const struct seen_page view = {.page = tree->page};
+  const struct seen_page seen = {.page = tree->page};
   const int width = axes[0].far_count, height = axes[1].far_count, leaves = tree->levels - 1;
   const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
                                               &tree->axes[1].level[level][at[1]]};
@@ -161,9 +161,9 @@ static void find_off(const struct cut_tree *tree, int level, const int at[2], do
     for (int i = node[0]->first; i <= node[0]->last; ++i) {
       find_weights(&axes[0], node[0], &tree->axes[0].level[leaves][i], rate[0], offset,
                    scratch->of[0]);
-      const float *from = tree->page->slab.rgb + seen_page_offset(&view, 0, i, 0);
+      const float *from = tree->page->slab.rgb + seen_page_offset(&seen, 0, i, 0);
       for (int l = 0; l < height; ++l)
-        add_row(from + seen_page_offset(&view, 1, j, l), scratch->of[0], width,
+        add_row(from + seen_page_offset(&seen, 1, j, l), scratch->of[0], width,
                 scratch->along[0] + l * width);
     }
     find_weights(&axes[1], node[1], &tree->axes[1].level[leaves][j], rate[1], offset,
@@ -234,7 +234,7 @@ static void spread_codes(const struct cut_tree *tree, struct cut_error_scratch *
 static void find_part(const struct cut_tree *tree, int level, const int at[2],
                       struct cut_error_scratch *scratch) {
   const struct light_axis *axes = tree->page->axes;
-  const struct seen_page view = {.page = tree->page};
+  const struct seen_page seen = {.page = tree->page};
   const int width = axes[0].far_count, height = axes[1].far_count;
   const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
                                               &tree->axes[1].level[level][at[1]]};
@@ -252,8 +252,8 @@ static void find_part(const struct cut_tree *tree, int level, const int at[2],
           tree->level[level].images + CUT_FLOATS * texels * cut_node_number(tree, level, at);
       simd_float4 *off = scratch->off;
       for (int l = 0; l < height; ++l) {
-        const float *rgb = tree->page->slab.rgb + seen_page_offset(&view, 1, j, l) +
-                           seen_page_offset(&view, 0, i, 0);
+        const float *rgb = tree->page->slab.rgb + seen_page_offset(&seen, 1, j, l) +
+                           seen_page_offset(&seen, 0, i, 0);
         for (int k = 0; k < width; ++k, from += CUT_FLOATS, rgb += 3, ++off) {
           simd_float4 d = SIMD_LOAD(simd_floats4, rgb) - SIMD_LOAD(simd_floats4, from) -
                           SIMD_LOAD(simd_floats4, from + 6) * x -

@@ -135,7 +135,7 @@ static void find_shares(const struct cut_interval *node, const struct cut_interv
 /* One row of st samples, for every view along the axis: sums over those along the other. */
 static void sum_row(const struct cut_tree *tree, const struct cut_interval *const node[2], int axis,
                     int row, struct cut_lines *lines) {
-  const struct seen_page view = {.page = tree->page};
+  const struct seen_page seen = {.page = tree->page};
   const size_t floats = lines->floats, used = 3 * (size_t)tree->page->axes[0].far_count;
   const int count = node[axis]->last - node[axis]->first + 1;
   const int others = node[1 - axis]->last - node[1 - axis]->first + 1;
@@ -145,8 +145,8 @@ static void sum_row(const struct cut_tree *tree, const struct cut_interval *cons
     float *first = out + (size_t)count * floats;
     for (int j = 0; j < others; ++j) {
       int at[2] = {node[0]->first + (axis ? j : i), node[1]->first + (axis ? i : j)};
-      const float *from = tree->page->slab.rgb + seen_page_offset(&view, 1, at[1], row) +
-                          seen_page_offset(&view, 0, at[0], 0);
+      const float *from = tree->page->slab.rgb + seen_page_offset(&seen, 1, at[1], row) +
+                          seen_page_offset(&seen, 0, at[0], 0);
       const float share[2] = {lines->share[0][j], lines->share[1][j]};
       size_t k = 0;
       for (; k + 4 <= used; k += 4) {

@@ -22,16 +22,16 @@ static const double second_order = 2, first_order = 2;
  * nothing of its light: it may bring all that there is. */
 static const double steep = 0.25;
 
-void cut_seen_free(struct cut_seen *view) {
-  free(view->spots);
-  free(view->taps);
-  *view = (struct cut_seen){0};
+void cut_seen_free(struct cut_seen *seen) {
+  free(seen->spots);
+  free(seen->taps);
+  *seen = (struct cut_seen){0};
 }
 
-bool cut_seen_begin(const struct cut_tree *tree, const struct seen_page *view,
+bool cut_seen_begin(const struct cut_tree *tree, const struct seen_page *page,
                     struct cut_seen *made) {
-  const struct light_axis *axes = view->page->axes;
-  const double *n = view->kernel.normal;
+  const struct light_axis *axes = page->page->axes;
+  const double *n = page->kernel.normal;
   size_t count = 0;
   for (int level = 0; level < tree->levels; ++level) {
     count += (size_t)tree->axes[0].count[level] + (size_t)tree->axes[1].count[level];
@@ -45,9 +45,9 @@ bool cut_seen_begin(const struct cut_tree *tree, const struct seen_page *view,
     made->room = count;
   }
   made->tree = tree;
-  made->view = view;
+  made->page = page;
   made->taps_used = 0;
-  made->per_height = 1 / view->height;
+  made->per_height = 1 / page->height;
   made->w = made->per_height - axes[0].kappa;
   made->tilt = sqrt(n[0] * n[0] + n[1] * n[1]);
   for (int axis = 0; axis < 2; ++axis) made->rate[axis] = -made->w / axes[axis].far_step;
@@ -61,18 +61,18 @@ static void set_line(struct cut_spot *spot, double reach, double per_reach, int 
   spot->bend = off < reach ? reach - off * off * per_reach : 0;
 }
 
-static void set_spots(const struct cut_seen *view, int level, int axis, struct cut_spot *spot) {
-  const struct light_axis *along = &view->view->page->axes[axis];
-  const struct cut_axis *tree = &view->tree->axes[axis];
-  const double q = view->view->foot[axis], most = along->far_count - 0.5;
+static void set_spots(const struct cut_seen *seen, int level, int axis, struct cut_spot *spot) {
+  const struct light_axis *along = &seen->page->page->axes[axis];
+  const struct cut_axis *tree = &seen->tree->axes[axis];
+  const double q = seen->page->foot[axis], most = along->far_count - 0.5;
   const double kappa = along->kappa, shift = -along->far_low;
-  const double per_step = 1 / along->far_step, speed = fabs(view->rate[axis]);
+  const double per_step = 1 / along->far_step, speed = fabs(seen->rate[axis]);
   const double per_speed = 1 / speed;
   const struct cut_interval *interval = tree->level[level];
   for (int k = 0; k < tree->count[level]; ++k, ++spot, ++interval) {
-    spot->slope = (interval->center - q) * view->per_height;
+    spot->slope = (interval->center - q) * seen->per_height;
     spot->place = (shift + (kappa * interval->center - spot->slope)) * per_step - 0.5;
-    spot->size = interval->moment[0] * view->per_height;
+    spot->size = interval->moment[0] * seen->per_height;
     double reach = speed * interval->half, low = spot->place - reach, high = spot->place + reach;
     spot->seen = high > -0.5 && low < most;
     spot->whole = low >= -0.5 && high <= most;
@@ -84,21 +84,21 @@ static void set_spots(const struct cut_seen *view, int level, int axis, struct c
   }
 }
 
-void cut_seen_prepare(struct cut_seen *view, int number) {
-  struct cut_seen_level *level = &view->level[number];
-  struct cut_spot *spots = view->spots;
-  const struct cut_axis *axes = view->tree->axes;
+void cut_seen_prepare(struct cut_seen *seen, int number) {
+  struct cut_seen_level *level = &seen->level[number];
+  struct cut_spot *spots = seen->spots;
+  const struct cut_axis *axes = seen->tree->axes;
   double spread = 0, width = cut_narrowest;
   if (level->spots[0]) return;
   for (int k = 0; k < number; ++k) spots += axes[0].count[k] + axes[1].count[k];
   level->samples = 1;
   for (int axis = 0; axis < 2; ++axis) {
-    double wide = axes[axis].widest[number] * fabs(view->w);
+    double wide = axes[axis].widest[number] * fabs(seen->w);
     if (wide > spread) spread = wide;
     level->samples *= 2 + wide;
-    level->reach[axis] = axes[axis].reach[number] * view->per_height;
+    level->reach[axis] = axes[axis].reach[number] * seen->per_height;
     level->spots[axis] = spots;
-    set_spots(view, number, axis, spots);
+    set_spots(seen, number, axis, spots);
     spots += axes[axis].count[number];
   }
   level->wide = !(spread <= cut_widest);
@@ -110,10 +110,10 @@ void cut_seen_prepare(struct cut_seen *view, int number) {
 
 /* The larger of the errors that were measured at widths on both sides of the wanted: between
  * them it can pass through 0. */
-static double spread_error(const struct cut_seen *view, const struct cut_seen_level *level,
+static double spread_error(const struct cut_seen *seen, const struct cut_seen_level *level,
                            const struct cut_estimate *estimate) {
-  const uint8_t *code = estimate->error[view->w < 0] + level->spread;
-  return (double)view->tree->error[code[0] > code[1] ? code[0] : code[1]];
+  const uint8_t *code = estimate->error[seen->w < 0] + level->spread;
+  return (double)seen->tree->error[code[0] > code[1] ? code[0] : code[1]];
 }
 
 static double line_error(const struct cut_tree *tree, int level, const int at[2],
@@ -146,13 +146,13 @@ static double larger(double a, double b) {
   return a > b ? a : b;
 }
 
-bool cut_seen_estimate(const struct cut_seen *view, int number, const int at[2],
+bool cut_seen_estimate(const struct cut_seen *seen, int number, const int at[2],
                        struct cut_node *node) {
-  const struct cut_tree *tree = view->tree;
-  const struct cut_seen_level *level = &view->level[number];
+  const struct cut_tree *tree = seen->tree;
+  const struct cut_seen_level *level = &seen->level[number];
   const struct cut_spot *const spot[2] = {&level->spots[0][at[0]], &level->spots[1][at[1]]};
   if (!spot[0]->seen || !spot[1]->seen) return false;
-  const struct kernel *kernel = &view->view->kernel;
+  const struct kernel *kernel = &seen->page->kernel;
   const bool whole = spot[0]->whole && spot[1]->whole;
   const double x = spot[0]->slope, y = spot[1]->slope, square = 1 + x * x + y * y;
   const double g = kernel_height(kernel, x, y), per = 1 / (g * square);
@@ -160,7 +160,7 @@ bool cut_seen_estimate(const struct cut_seen *view, int number, const int at[2],
   const double value = g * per_square * per_square * spot[0]->size * spot[1]->size;
   const double reach = larger(level->reach[0], level->reach[1]), root = sqrt(square);
   const double flat = reach * reach * per_square, narrow = reach * root * per_square;
-  const double tilt = 1 + view->tilt * root * per_g;
+  const double tilt = 1 + seen->tilt * root * per_g;
   const double mixed =
       8 * x * y * per_square * per_square - kernel->normal[0] * kernel->normal[1] * per_g * per_g;
   double part = 0;
@@ -170,8 +170,8 @@ bool cut_seen_estimate(const struct cut_seen *view, int number, const int at[2],
       (whole ? mixed_order : cut_mixed_order) * fabs(mixed) * level->reach[0] * level->reach[1];
   if (number == tree->levels - 1) {
     node->light = value * largest_of(tree->page->slab.rgb +
-                                     seen_page_offset(view->view, 1, at[1], spot[1]->cell) +
-                                     seen_page_offset(view->view, 0, at[0], spot[0]->cell));
+                                     seen_page_offset(seen->page, 1, at[1], spot[1]->cell) +
+                                     seen_page_offset(seen->page, 0, at[0], spot[0]->cell));
   } else {
     const struct cut_estimate *estimate =
         tree->level[number].estimates + cut_texels(tree) * cut_node_number(tree, number, at) +
@@ -184,7 +184,7 @@ bool cut_seen_estimate(const struct cut_seen *view, int number, const int at[2],
       part = (double)tree->error[estimate->part] * part_order * flat * tilt;
     node->light = value * cut_mean(estimate);
     double spread =
-        level->narrow ? line_error(tree, number, at, spot) : spread_error(view, level, estimate);
+        level->narrow ? line_error(tree, number, at, spot) : spread_error(seen, level, estimate);
     node->spread = value * larger(spread, edge);
   }
   node->bent = fabs(node->light) * node->bend + value * part;
@@ -210,16 +210,16 @@ static double find_bends(const struct kernel *kernel, const double at[2], struct
   return g * per_square * per_square;
 }
 
-static const struct cut_taps *find_taps(struct cut_seen *view, int level, int axis, int at) {
-  struct cut_spot *spot = &view->level[level].spots[axis][at];
+static const struct cut_taps *find_taps(struct cut_seen *seen, int level, int axis, int at) {
+  struct cut_spot *spot = &seen->level[level].spots[axis][at];
   if (spot->taps) return spot->taps;
   const struct cut_sight sight = {.place = spot->place,
-                                  .rate = view->rate[axis],
-                                  .scale = view->per_height,
+                                  .rate = seen->rate[axis],
+                                  .scale = seen->per_height,
                                   .clipped = !spot->whole};
-  spot->taps = &view->taps[view->taps_used++];
-  if (!cut_taps_find(&view->tree->axes[axis].level[level][at], &sight,
-                     view->view->page->axes[axis].far_count, spot->taps))
+  spot->taps = &seen->taps[seen->taps_used++];
+  if (!cut_taps_find(&seen->tree->axes[axis].level[level][at], &sight,
+                     seen->page->page->axes[axis].far_count, spot->taps))
     spot->taps->count = -1;
   return spot->taps;
 }
@@ -230,12 +230,12 @@ struct factors {
   float mean[CUT_TAPS], slope[CUT_TAPS];
 };
 
-static bool find_factors(struct cut_seen *view, const struct cut_node *node, int axis,
+static bool find_factors(struct cut_seen *seen, const struct cut_node *node, int axis,
                          const struct bend *bend, struct factors *factors) {
-  const struct cut_taps *taps = find_taps(view, node->level, axis, node->at[axis]);
+  const struct cut_taps *taps = find_taps(seen, node->level, axis, node->at[axis]);
   if (taps->count < 0) return false;
   const double half =
-      view->per_height * view->tree->axes[axis].level[node->level][node->at[axis]].half;
+      seen->per_height * seen->tree->axes[axis].level[node->level][node->at[axis]].half;
   const float first = (float)(bend->first * half), second = (float)(bend->second * half * half);
   factors->first = taps->first;
   factors->count = taps->count;
@@ -284,22 +284,22 @@ static simd_float4 viewer_light(const float *image, size_t row, const struct fac
   return sum;
 }
 
-bool cut_seen_light(struct cut_seen *view, const struct cut_node *node, double rgb[3],
+bool cut_seen_light(struct cut_seen *seen, const struct cut_node *node, double rgb[3],
                     double *error) {
-  const struct cut_tree *tree = view->tree;
+  const struct cut_tree *tree = seen->tree;
   const struct light_page *page = tree->page;
-  const struct cut_seen_level *level = &view->level[node->level];
+  const struct cut_seen_level *level = &seen->level[node->level];
   const double at[2] = {level->spots[0][node->at[0]].slope, level->spots[1][node->at[1]].slope};
   struct bend bends[2];
   struct factors factors[2];
-  double value = find_bends(&view->view->kernel, at, bends), most = 0;
+  double value = find_bends(&seen->page->kernel, at, bends), most = 0;
   for (int axis = 0; axis < 2; ++axis)
-    if (!find_factors(view, node, axis, &bends[axis], &factors[axis])) return false;
+    if (!find_factors(seen, node, axis, &bends[axis], &factors[axis])) return false;
   float light[4];
   if (node->level == tree->levels - 1) {
     simd_float4 sum =
-        viewer_light(page->slab.rgb + seen_page_offset(view->view, 1, node->at[1], 0) +
-                         seen_page_offset(view->view, 0, node->at[0], 0),
+        viewer_light(page->slab.rgb + seen_page_offset(seen->page, 1, node->at[1], 0) +
+                         seen_page_offset(seen->page, 0, node->at[0], 0),
                      3 * (size_t)slab_width(&page->slab), &factors[0], &factors[1]);
     memcpy(light, &sum, sizeof light);
   } else

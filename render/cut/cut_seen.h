@@ -32,7 +32,7 @@ struct cut_seen_level {
 /* Zero-initialised; used again from receiver to receiver. */
 struct cut_seen {
   const struct cut_tree *tree;
-  const struct seen_page *view;
+  const struct seen_page *page;
   double w, rate[2]; /* cut.h; of the st sample's number, by length along the aperture */
   double per_height, tilt;
   struct cut_seen_level level[CUT_LEVELS];
@@ -49,22 +49,22 @@ struct cut_node {
   double bend;   /* the latter's share of the light */
 };
 
-void cut_seen_free(struct cut_seen *view);
+void cut_seen_free(struct cut_seen *seen);
 
 /* Another receiver. False: without memory. */
-bool cut_seen_begin(const struct cut_tree *tree, const struct seen_page *view,
+bool cut_seen_begin(const struct cut_tree *tree, const struct seen_page *page,
                     struct cut_seen *made);
 
 /* To be called before a level's nodes are looked at. */
-void cut_seen_prepare(struct cut_seen *view, int level);
+void cut_seen_prepare(struct cut_seen *seen, int level);
 
 /* Estimates a node. False: nothing of it is seen. */
-bool cut_seen_estimate(const struct cut_seen *view, int level, const int at[2],
+bool cut_seen_estimate(const struct cut_seen *seen, int level, const int at[2],
                        struct cut_node *node);
 
 /* Adds a node's light. `error` grows where the kernel bends more light than was estimated.
  * False: more st samples than CUT_TAPS. */
-bool cut_seen_light(struct cut_seen *view, const struct cut_node *node, double rgb[3],
+bool cut_seen_light(struct cut_seen *seen, const struct cut_node *node, double rgb[3],
                     double *error);
 
 #endif

@@ -69,8 +69,8 @@ struct cut_tree {
 /* The tree's lengths are in units of about its aperture, so that none of their powers leaves the
  * range of numbers: the view in these units. */
 static inline struct seen_page cut_tree_view(const struct cut_tree *tree,
-                                             const struct seen_page *view) {
-  struct seen_page scaled = *view;
+                                             const struct seen_page *seen) {
+  struct seen_page scaled = *seen;
   scaled.page = tree->page;
   scaled.height *= tree->per_unit;
   for (int axis = 0; axis < 2; ++axis) scaled.foot[axis] *= tree->per_unit;

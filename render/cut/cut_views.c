@@ -65,13 +65,13 @@ static void find_bend(const struct kernel *kernel, const double at[2], int axis,
   bend[1] = -4 * n * p - 2 * per_square + 12 * p * p;
 }
 
-static void find_slope(const struct seen_page *view, int axis, const double middle[2],
+static void find_slope(const struct seen_page *seen, int axis, const double middle[2],
                        struct sees *sees) {
   const double reach = sees->axis->half * sees->per_height / 2;
   double bends[2][2], at[2] = {middle[0], middle[1]};
   for (int side = 0; side < 2; ++side) {
     at[axis] = middle[axis] + (side ? reach : -reach);
-    find_bend(&view->kernel, at, axis, bends[side]);
+    find_bend(&seen->kernel, at, axis, bends[side]);
   }
   sees->first[1] = (bends[1][0] - bends[0][0]) / (2 * reach);
   sees->first[0] = (bends[1][0] + bends[0][0]) / 2 - sees->first[1] * middle[axis];
@@ -94,18 +94,18 @@ static void find_shares(struct sees *sees) {
   }
 }
 
-static struct sees look_along(const struct seen_page *view, int axis, int nodes,
+static struct sees look_along(const struct seen_page *seen, int axis, int nodes,
                               const double middle[2]) {
-  const struct light_axis *along = &view->page->axes[axis];
+  const struct light_axis *along = &seen->page->axes[axis];
   struct sees sees = {.axis = along,
-                      .foot = view->foot[axis],
-                      .per_height = 1 / view->height,
+                      .foot = seen->foot[axis],
+                      .per_height = 1 / seen->height,
                       .per_step = 1 / along->far_step,
                       .nodes = nodes};
-  sees.speed = (along->kappa * view->height - 1) * sees.per_step * sees.per_height;
+  sees.speed = (along->kappa * seen->height - 1) * sees.per_step * sees.per_height;
   sees.per_speed = 1 / fabs(sees.speed);
   if (nodes == 1)
-    find_slope(view, axis, middle, &sees);
+    find_slope(seen, axis, middle, &sees);
   else
     find_shares(&sees);
   return sees;
@@ -179,14 +179,14 @@ static bool weigh(const struct sees *sees, const struct cut_interval *view, floa
   return true;
 }
 
-static bool weigh_columns(const struct cut_tree *tree, const struct seen_page *view,
+static bool weigh_columns(const struct cut_tree *tree, const struct seen_page *seen,
                           const struct sees *sees, struct cut_views *out) {
   const struct cut_interval *interval = tree->axes[0].level[tree->levels - 1];
   struct weights weights = {0};
   out->pairs = out->slopes = 0;
   for (int i = 0; i < sees->axis->near_count; ++i, out->slopes += sees->nodes) {
     if (!weigh(sees, &interval[i], out->slope + out->slopes, &weights)) return false;
-    const size_t from = seen_page_offset(view, 0, i, weights.first);
+    const size_t from = seen_page_offset(seen, 0, i, weights.first);
     for (int k = 0; k < weights.count; k += 2, ++out->pairs) {
       if (out->pairs == PAIRS) return false;
       for (int node = 0; node < sees->nodes; ++node) {
@@ -208,10 +208,10 @@ static bool weigh_columns(const struct cut_tree *tree, const struct seen_page *v
   return true;
 }
 
-static bool weigh_rows(const struct cut_tree *tree, const struct seen_page *view,
+static bool weigh_rows(const struct cut_tree *tree, const struct seen_page *seen,
                        const struct sees *sees, struct cut_views *out) {
   const struct cut_interval *interval = tree->axes[1].level[tree->levels - 1];
-  const size_t stride = 3 * (size_t)slab_width(&view->page->slab);
+  const size_t stride = 3 * (size_t)slab_width(&seen->page->slab);
   struct weights weights = {0};
   out->rows = out->first[0] = 0;
   for (int j = 0; j < sees->axis->near_count; ++j) {
@@ -289,24 +289,24 @@ SIMD_INLINE void sum_row_body(struct cut_views *views, int view) {
     sum_rows(views, first, count, 4);
 }
 
-SIMD_DISPATCH(sum_row, (struct cut_views * views, int view), (views, view))
+SIMD_DISPATCH(sum_row, (struct cut_views * views, int seen), (views, seen))
 
-static void find_middle(const struct seen_page *view, double middle[2]) {
-  for (int axis = 0; axis < 2; ++axis) middle[axis] = -view->foot[axis] / view->height;
+static void find_middle(const struct seen_page *seen, double middle[2]) {
+  for (int axis = 0; axis < 2; ++axis) middle[axis] = -seen->foot[axis] / seen->height;
 }
 
-bool cut_views_prepare(const struct cut_tree *tree, const struct seen_page *view, int nodes,
+bool cut_views_prepare(const struct cut_tree *tree, const struct seen_page *seen, int nodes,
                        struct cut_views *views) {
-  const struct light_axis *axes = view->page->axes;
+  const struct light_axis *axes = seen->page->axes;
   double middle[2];
-  find_middle(view, middle);
-  const struct sees u = look_along(view, 0, nodes, middle), v = look_along(view, 1, nodes, middle);
-  if (!weigh_columns(tree, view, &u, views) || !weigh_rows(tree, view, &v, views)) return false;
-  const double g = kernel_height(&view->kernel, middle[0], middle[1]);
-  for (int c = 0; c < 3; ++c) views->normal[c] = (float)(view->kernel.normal[c] / g);
+  find_middle(seen, middle);
+  const struct sees u = look_along(seen, 0, nodes, middle), v = look_along(seen, 1, nodes, middle);
+  if (!weigh_columns(tree, seen, &u, views) || !weigh_rows(tree, seen, &v, views)) return false;
+  const double g = kernel_height(&seen->kernel, middle[0], middle[1]);
+  for (int c = 0; c < 3; ++c) views->normal[c] = (float)(seen->kernel.normal[c] / g);
   views->nodes = nodes;
   views->count = axes[1].near_count;
-  views->rgb = view->page->slab.rgb;
+  views->rgb = seen->page->slab.rgb;
   views->scale = g * axes[0].near_step * axes[1].near_step * u.per_height * u.per_height;
   views->sum = (simd_float8){0};
   return true;
@@ -339,12 +339,12 @@ static const double rounding = 3e-6, nodes_rounding = 3e-5;
 
 /* Slopes between which the aperture is; returns the square of the distance to its nearest point, in
  * units of the height. */
-static double find_ends(const struct seen_page *view, double low[2], double high[2]) {
+static double find_ends(const struct seen_page *seen, double low[2], double high[2]) {
   double square = 1;
   for (int axis = 0; axis < 2; ++axis) {
-    const double half = view->page->axes[axis].half, foot = view->foot[axis];
-    low[axis] = (-half - foot) / view->height;
-    high[axis] = (half - foot) / view->height;
+    const double half = seen->page->axes[axis].half, foot = seen->foot[axis];
+    low[axis] = (-half - foot) / seen->height;
+    high[axis] = (half - foot) / seen->height;
     const double nearest = low[axis] > 0 ? low[axis] : high[axis] < 0 ? high[axis] : 0;
     square += nearest * nearest;
   }
@@ -352,29 +352,29 @@ static double find_ends(const struct seen_page *view, double low[2], double high
 }
 
 /* Slopes are in single precision: what that makes of the height over the tangent plane. */
-static double slope_rounding(const struct seen_page *view, const double low[2],
+static double slope_rounding(const struct seen_page *seen, const double low[2],
                              const double high[2]) {
   double range[2], far = 1;
-  kernel_heights(&view->kernel, low, high, range);
+  kernel_heights(&seen->kernel, low, high, range);
   for (int axis = 0; axis < 2; ++axis) far = hypot(far, fmax(fabs(low[axis]), fabs(high[axis])));
   return range[0] > 0 ? 2e-7 * far / range[0] : INFINITY;
 }
 
 /* With one node and the kernel's slope. */
-static double slope_error(const struct seen_page *view) {
-  const struct light_axis *axes = view->page->axes;
-  const double *n = view->kernel.normal;
+static double slope_error(const struct seen_page *seen) {
+  const struct light_axis *axes = seen->page->axes;
+  const double *n = seen->kernel.normal;
   double middle[2], low[2], high[2], error = rounding;
-  const double nearest = find_ends(view, low, high);
-  find_middle(view, middle);
-  error += slope_rounding(view, low, high);
+  const double nearest = find_ends(seen, low, high);
+  find_middle(seen, middle);
+  error += slope_rounding(seen, low, high);
   const double square = 1 + middle[0] * middle[0] + middle[1] * middle[1];
   const double tilt =
-      sqrt(n[0] * n[0] + n[1] * n[1]) / kernel_height(&view->kernel, middle[0], middle[1]);
+      sqrt(n[0] * n[0] + n[1] * n[1]) / kernel_height(&seen->kernel, middle[0], middle[1]);
   const double bend = tilt + 2 / sqrt(square);
   for (int axis = 0; axis < 2; ++axis) {
-    const double step = axes[axis].near_step / view->height, half = axes[axis].half / view->height;
-    const double wide = fabs(axes[axis].kappa * view->height - 1) * step / axes[axis].far_step;
+    const double step = axes[axis].near_step / seen->height, half = axes[axis].half / seen->height;
+    const double wide = fabs(axes[axis].kappa * seen->height - 1) * step / axes[axis].far_step;
     error += bend * bend * step * (view_order * step + aperture_order * half * fmin(wide, 1));
     if (step * step > steep * nearest) error = INFINITY;
   }
@@ -383,38 +383,38 @@ static double slope_error(const struct seen_page *view) {
 
 /* What polynomials through the nodes leave out: of the kernel's part 1/r^4, whose n-th derivative
  * is about (n + 1)!/r^n, and of that times its height over the tangent plane. */
-static double nodes_error(const struct seen_page *view, int nodes) {
+static double nodes_error(const struct seen_page *seen, int nodes) {
   static const double order[CUT_VIEWS_NODES + 1] = {0, 0, 1, 0.8, 0.6};
-  const struct light_axis *axes = view->page->axes;
+  const struct light_axis *axes = seen->page->axes;
   double low[2], high[2], range[2], error = nodes_rounding;
-  const double square = find_ends(view, low, high);
-  error += slope_rounding(view, low, high);
-  kernel_heights(&view->kernel, low, high, range);
+  const double square = find_ends(seen, low, high);
+  error += slope_rounding(seen, low, high);
+  kernel_heights(&seen->kernel, low, high, range);
   if (!(range[0] > 0)) return INFINITY;
   for (int axis = 0; axis < 2; ++axis) {
-    const double step = axes[axis].near_step / view->height, part = step / sqrt(square);
-    const double tilt = fabs(view->kernel.normal[axis]) * step / range[0];
+    const double step = axes[axis].near_step / seen->height, part = step / sqrt(square);
+    const double tilt = fabs(seen->kernel.normal[axis]) * step / range[0];
     error += order[nodes] * pow(part, nodes - 1) * (part + tilt);
   }
   return error;
 }
 
-int cut_views_nodes(const struct seen_page *view, double tolerance, double *error) {
-  const struct light_axis *axes = view->page->axes;
-  if (axes[0].near_count > MOST || axes[1].near_count > MOST || !(view->height > 0)) return 0;
+int cut_views_nodes(const struct seen_page *seen, double tolerance, double *error) {
+  const struct light_axis *axes = seen->page->axes;
+  if (axes[0].near_count > MOST || axes[1].near_count > MOST || !(seen->height > 0)) return 0;
   for (int nodes = 1; nodes <= CUT_VIEWS_NODES; ++nodes) {
-    *error = nodes == 1 ? slope_error(view) : nodes_error(view, nodes);
+    *error = nodes == 1 ? slope_error(seen) : nodes_error(seen, nodes);
     if (*error <= tolerance) return nodes;
   }
   return 0;
 }
 
-double cut_views_price(const struct seen_page *view, int nodes) {
+double cut_views_price(const struct seen_page *seen, int nodes) {
   static const double fixed = 200, view_price = 20, pair_price = 1.2;
-  const struct light_axis *axes = view->page->axes;
+  const struct light_axis *axes = seen->page->axes;
   double samples = 1, views = 0;
   for (int axis = 0; axis < 2; ++axis) {
-    const double wide = fabs(axes[axis].kappa * view->height - 1) / view->height *
+    const double wide = fabs(axes[axis].kappa * seen->height - 1) / seen->height *
                         axes[axis].near_step / axes[axis].far_step;
     samples *= (2 + 2 * wide) * axes[axis].near_count;
     views += axes[axis].near_count;

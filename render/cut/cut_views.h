@@ -16,10 +16,10 @@ enum { CUT_VIEWS_NODES = 4 };
 
 /* How many nodes a side a view needs for the tolerance, and the relative error that is predicted
  * then; 0 where it cannot be met. */
-int cut_views_nodes(const struct seen_page *view, double tolerance, double *error);
+int cut_views_nodes(const struct seen_page *seen, double tolerance, double *error);
 
 /* What it takes, in nanoseconds; only relative to other such prices. */
-double cut_views_price(const struct seen_page *view, int nodes);
+double cut_views_price(const struct seen_page *seen, int nodes);
 
 /* A sum for one receiver. */
 struct cut_views;
@@ -28,7 +28,7 @@ void cut_views_free(struct cut_views *views); /* NULL allowed */
 
 /* Prepares the sum of a page that is all above the receiver's tangent plane; matte receivers only.
  * False: more st samples than there is room for. */
-bool cut_views_prepare(const struct cut_tree *tree, const struct seen_page *view, int nodes,
+bool cut_views_prepare(const struct cut_tree *tree, const struct seen_page *seen, int nodes,
                        struct cut_views *views);
 
 /* Takes prepared sums, row of views by row of views: neighbours look at the same samples. */

@@ -43,33 +43,6 @@ struct gather {
   int waiting;            /* sums that are prepared */
 };
 
-static const char *const method_names[GATHER_METHODS + 1] = {
-    [GATHER_AUTO] = "auto",
-    [GATHER_REFERENCE] = "reference",
-    [GATHER_PAPER] = "paper",
-    [GATHER_MIDPOINT] = "midpoint",
-    [GATHER_PI] = "pi",
-    [GATHER_CLOSED] = "closed",
-    [GATHER_VIEWS] = "views",
-    [GATHER_LEVELS] = "levels",
-    [GATHER_PAPER_LEVELS] = "paper-levels",
-    [GATHER_CUT] = "cut",
-    [GATHER_GL] = "gl",
-};
-
-const char *gather_method_name(enum gather_method method) {
-  return method_names[method];
-}
-
-bool gather_method_parse(const char *name, enum gather_method *method) {
-  for (int k = 0; k < GATHER_METHODS; ++k)
-    if (!strcmp(name, method_names[k])) {
-      *method = (enum gather_method)k;
-      return true;
-    }
-  return false;
-}
-
 enum result gather_create(const struct gather_settings *settings, struct gather **gather,
                           struct error *error) {
   struct gather *made = calloc(1, sizeof *made);
@@ -124,7 +97,7 @@ static enum result take_sums(struct gather *gather, double gain, struct gathered
   for (int k = 0; k < gather->waiting; ++k) {
     enum result result = row_sum_scratch_reserve(&gather->scratch, &gather->sums[k], error);
     if (result != RESULT_OK) return result;
-    int count = gather->sums[k].view.page->axes[1].near_count;
+    int count = gather->sums[k].seen.page->axes[1].near_count;
     views = count > views ? count : views;
   }
   for (int view = 0; view < views; ++view)
@@ -143,48 +116,48 @@ static enum result take_sums(struct gather *gather, double gain, struct gathered
   return RESULT_OK;
 }
 
-static void heights(const struct seen_page *view, const struct strips strips[2], double range[2]) {
+static void heights(const struct seen_page *seen, const struct strips strips[2], double range[2]) {
   double low[2], high[2];
   for (int axis = 0; axis < 2; ++axis) {
     low[axis] = strips[axis].strip[0].low;
     high[axis] = strips[axis].strip[strips[axis].count - 1].high;
   }
-  kernel_heights(&view->kernel, low, high, range);
+  kernel_heights(&seen->kernel, low, high, range);
 }
 
-static double pi_error(const struct seen_page *view, const struct strips strips[2]) {
+static double pi_error(const struct seen_page *seen, const struct strips strips[2]) {
   double widest = 0, change = 0, range[2];
   for (int axis = 0; axis < 2; ++axis) {
     double wide = 0;
     for (int k = 0; k < strips[axis].count; ++k) wide = fmax(wide, strips[axis].strip[k].width);
     widest = fmax(widest, wide);
-    change += fabs(view->kernel.normal[axis]) * wide;
+    change += fabs(seen->kernel.normal[axis]) * wide;
   }
-  heights(view, strips, range);
+  heights(seen, strips, range);
   const double rise = change > 0 ? change / (fmax(range[0], 0) + change / 2) : 0;
-  return rule_pi_error(widest, rise, view->kernel.shininess);
+  return rule_pi_error(widest, rise, seen->kernel.shininess);
 }
 
 /* The method for this receiver and page, and its predicted relative error: INFINITY where none
  * is known, as with random samples, whole levels and sums over views. */
 static enum gather_method choose(const struct gather *gather, const struct look *look,
-                                 const struct seen_page *view, double *error) {
+                                 const struct seen_page *seen, double *error) {
   enum gather_method method = gather->settings->method;
   bool sampled = method == GATHER_PAPER || method == GATHER_PAPER_LEVELS ||
                  method == GATHER_VIEWS || method == GATHER_MIDPOINT;
   *error = gather->settings->tolerance;
   bool cheapest = method == GATHER_AUTO || method == GATHER_LEVELS || method == GATHER_CUT;
   if (cheapest || method == GATHER_PI) {
-    double single = pi_error(view, gather->whole);
+    double single = pi_error(seen, gather->whole);
     if (cheapest) method = single <= *error ? GATHER_PI : GATHER_REFERENCE;
     if (method != GATHER_REFERENCE) *error = single;
   }
-  if (sampled || view->page != look->page) *error = INFINITY;
+  if (sampled || seen->page != look->page) *error = INFINITY;
   return method;
 }
 
 /* Sums the micro lights between `strips`: at once, or puts it with those that wait. */
-static enum result sum(struct gather *gather, const struct look *look, const struct seen_page *view,
+static enum result sum(struct gather *gather, const struct look *look, const struct seen_page *seen,
                        const struct strips strips[2], enum gather_method method,
                        struct gathered *gathered, struct error *error) {
   double irradiance[3] = {0}, gloss[3] = {0}, gain = look->light->gain;
@@ -192,14 +165,14 @@ static enum result sum(struct gather *gather, const struct look *look, const str
   switch (method) {
   case GATHER_PAPER:
   case GATHER_PAPER_LEVELS:
-    paper_sum(view, look->page, strips,
+    paper_sum(seen, look->page, strips,
               gather->settings->seed ^ (look->receiver->index * 0xd1342543de82ef95u +
                                         (uint64_t)look->page_number * 0x9fb21c651e98df25u),
               irradiance, gloss, &gather->cell_counts);
     add(&gathered[look->index], irradiance, gloss, gain);
     return RESULT_OK;
   case GATHER_CLOSED:
-    result = closed_sum(view, strips, gather->nodes, irradiance, &gather->cell_counts, error);
+    result = closed_sum(seen, strips, gather->nodes, irradiance, &gather->cell_counts, error);
     add(&gathered[look->index], irradiance, gloss, gain);
     return result;
   default:
@@ -215,11 +188,11 @@ static enum result sum(struct gather *gather, const struct look *look, const str
                                               : RULE_MIDPOINT;
   gather->receiver[gather->waiting] = look->index;
   gather->sums[gather->waiting].skip_black = !gather->settings->all_effects;
-  return row_sum_prepare(&gather->sums[gather->waiting++], view, strips, kind, rule,
+  return row_sum_prepare(&gather->sums[gather->waiting++], seen, strips, kind, rule,
                          &gather->orders, error);
 }
 
-static enum result find_visible(struct gather *gather, const struct seen_page *view,
+static enum result find_visible(struct gather *gather, const struct seen_page *seen,
                                 const struct receiver *receiver, struct error *error) {
   const struct strips *whole = gather->whole;
   struct visible_query query = {.occlusion = gather->settings->occlusion,
@@ -229,10 +202,10 @@ static enum result find_visible(struct gather *gather, const struct seen_page *v
   for (int axis = 0; axis < 2; ++axis) {
     query.whole.low[axis] = whole[axis].strip[0].low;
     query.whole.high[axis] = whole[axis].strip[whole[axis].count - 1].high;
-    for (int c = 0; c < 3; ++c) query.along[axis][c] = view->height * view->page->frame[axis][c];
+    for (int c = 0; c < 3; ++c) query.along[axis][c] = seen->height * seen->page->frame[axis][c];
   }
   for (int c = 0; c < 3; ++c)
-    query.origin[c] = receiver->position[c] - view->height * view->page->frame[2][c];
+    query.origin[c] = receiver->position[c] - seen->height * seen->page->frame[2][c];
   return visible_find(&query, &gather->visible, error);
 }
 
@@ -257,48 +230,48 @@ static enum result clip(struct gather *gather, const struct visible_rectangle *r
 
 /* May it see any of the page: is any of the aperture above its tangent plane, and seen through
  * the window? */
-static bool may_see(const struct seen_page *view) {
+static bool may_see(const struct seen_page *seen) {
   double low[2], high[2], range[2];
-  if (!(view->height > 0)) return true;
-  const double per_height = 1 / view->height;
+  if (!(seen->height > 0)) return true;
+  const double per_height = 1 / seen->height;
   for (int axis = 0; axis < 2; ++axis) {
-    const struct light_axis *along = &view->page->axes[axis];
-    low[axis] = (-along->half - view->foot[axis]) * per_height;
-    high[axis] = (along->half - view->foot[axis]) * per_height;
+    const struct light_axis *along = &seen->page->axes[axis];
+    low[axis] = (-along->half - seen->foot[axis]) * per_height;
+    high[axis] = (along->half - seen->foot[axis]) * per_height;
     const double across = along->kappa * along->half;
     const double ends[2] = {-across - low[axis], across - high[axis]};
     if ((ends[0] < along->far_low && ends[1] < along->far_low) ||
         (ends[0] > along->far_high && ends[1] > along->far_high))
       return false;
   }
-  kernel_heights(&view->kernel, low, high, range);
+  kernel_heights(&seen->kernel, low, high, range);
   return range[1] > 0;
 }
 
 /* The receiver's view of the page, or of the level that its distance calls for; false where
  * the page is turned away. */
 static bool find_view(const struct gather *gather, const struct look *look,
-                      struct seen_page *view) {
+                      struct seen_page *seen) {
   const struct gather_settings *settings = gather->settings;
-  if (!seen_page_find(look->page, look->receiver, view) || !may_see(view)) return false;
+  if (!seen_page_find(look->page, look->receiver, seen) || !may_see(seen)) return false;
   if (!settings->aids || !settings->aids->levels) return true;
   const struct levels *levels = &settings->aids->levels[look->page_number];
-  int level = settings->level < 0 ? levels_choose(levels, view) : settings->level;
+  int level = settings->level < 0 ? levels_choose(levels, seen) : settings->level;
   if (level > levels->count) level = levels->count;
-  if (level > 0) view->page = &levels->page[level - 1];
+  if (level > 0) seen->page = &levels->page[level - 1];
   return true;
 }
 
 /* Does it see any of the page above its tangent plane? Finds the strips. */
-static enum result find_strips(struct gather *gather, const struct seen_page *view, bool *sees,
+static enum result find_strips(struct gather *gather, const struct seen_page *seen, bool *sees,
                                struct error *error) {
   struct strips *whole = gather->whole;
   double range[2];
   *sees = false;
   enum result result =
-      seen_page_strips(view, gather->settings->method == GATHER_VIEWS, whole, error);
+      seen_page_strips(seen, gather->settings->method == GATHER_VIEWS, whole, error);
   if (result != RESULT_OK || whole[0].count == 0 || whole[1].count == 0) return result;
-  heights(view, whole, range);
+  heights(seen, whole, range);
   *sees = range[1] > 0;
   return RESULT_OK;
 }
@@ -318,7 +291,7 @@ static void add_cuts(struct gather *gather, double gain, struct gathered *gather
 }
 
 /* By the method cut, if there are trees and it takes this receiver. */
-static bool take_cut(struct gather *gather, const struct look *look, const struct seen_page *view,
+static bool take_cut(struct gather *gather, const struct look *look, const struct seen_page *seen,
                      struct gathered *gathered) {
   const struct gather_prepared *aids = gather->settings->aids;
   if (!aids || !aids->trees) return false;
@@ -328,7 +301,7 @@ static bool take_cut(struct gather *gather, const struct look *look, const struc
     return false;
   }
   if (gather->by_cut_count == TOGETHER) add_cuts(gather, look->light->gain, gathered);
-  if (!cut_sum(aids->trees[look->page_number], view, gather->settings->tolerance, 0, gather->cut,
+  if (!cut_sum(aids->trees[look->page_number], seen, gather->settings->tolerance, 0, gather->cut,
                gather->by_cut[gather->by_cut_count].irradiance, &gather->cut_counts))
     return false;
   gather->by_cut[gather->by_cut_count++].receiver = look->index;
@@ -351,15 +324,15 @@ static bool all_visible(const struct gather *gather) {
 
 static enum result take_look(struct gather *gather, const struct look *look,
                              struct gathered *gathered, struct error *error) {
-  struct seen_page view;
-  const bool faces = find_view(gather, look, &view);
+  struct seen_page seen;
+  const bool faces = find_view(gather, look, &seen);
   bool sees = faces;
   const bool open = gather->settings->occlusion && !look->shadows;
-  if (sees && !look->shadows && take_cut(gather, look, &view, gathered)) {
+  if (sees && !look->shadows && take_cut(gather, look, &seen, gathered)) {
     gather->counts.open_views += open;
     return RESULT_OK;
   }
-  enum result result = sees ? find_strips(gather, &view, &sees, error) : RESULT_OK;
+  enum result result = sees ? find_strips(gather, &seen, &sees, error) : RESULT_OK;
   if (result != RESULT_OK) return result;
   if (!sees) {
     ++gather->counts.pages_behind;
@@ -370,18 +343,18 @@ static enum result take_look(struct gather *gather, const struct look *look,
   }
   gather->counts.open_views += open;
   if (look->shadows) {
-    result = find_visible(gather, &view, look->receiver, error);
+    result = find_visible(gather, &seen, look->receiver, error);
     if (result != RESULT_OK) return result;
-    if (all_visible(gather) && take_cut(gather, look, &view, gathered)) return RESULT_OK;
+    if (all_visible(gather) && take_cut(gather, look, &seen, gathered)) return RESULT_OK;
   }
   double predicted;
-  enum gather_method method = choose(gather, look, &view, &predicted);
+  enum gather_method method = choose(gather, look, &seen, &predicted);
   note_error(gather, look, predicted, gathered);
-  if (!look->shadows) return sum(gather, look, &view, gather->whole, method, gathered, error);
+  if (!look->shadows) return sum(gather, look, &seen, gather->whole, method, gathered, error);
   for (int k = 0; k < gather->visible.count && result == RESULT_OK; ++k) {
     result = clip(gather, &gather->visible.rectangles[k], method == GATHER_VIEWS, error);
     if (result == RESULT_OK && gather->part[0].count > 0 && gather->part[1].count > 0)
-      result = sum(gather, look, &view, gather->part, method, gathered, error);
+      result = sum(gather, look, &seen, gather->part, method, gathered, error);
   }
   return result;
 }
@@ -392,10 +365,10 @@ static bool find_shadows(struct gather *gather, const struct light_page *page,
   const struct occlusion *occlusion = gather->settings->occlusion;
   if (!occlusion || gather->settings->all_effects) return occlusion != NULL;
   double lifted[TOGETHER][3], corners[4][3];
-  struct seen_page view;
+  struct seen_page seen;
   int facing = 0;
   for (int k = 0; k < count; ++k) {
-    if (!seen_page_find(page, &receivers[k], &view)) continue;
+    if (!seen_page_find(page, &receivers[k], &seen)) continue;
     if (facing == TOGETHER) return true;
     occlusion_lift(occlusion, receivers[k].position, receivers[k].lift, lifted[facing++]);
   }

@@ -6,58 +6,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "gather/method.h"
 #include "light/light.h"
+#include "microlight/receiver.h"
 
 struct occlusion;
-
-enum gather_method {
-  GATHER_AUTO,         /* the cheapest that meets the tolerance */
-  GATHER_REFERENCE,    /* Gauss rules whose order follows from the tolerance */
-  GATHER_PAPER,        /* one random sample a micro light, as published */
-  GATHER_MIDPOINT,     /* one in the middle */
-  GATHER_PI,           /* hat functions integrated exactly, the kernel in the middle */
-  GATHER_CLOSED,       /* closed form; matte receivers without occluders only */
-  GATHER_VIEWS,        /* one sample a view, at the uv sample: what projective textures sum
-                          (section 4.3), and POV-Ray's lights of the sheet include */
-  GATHER_LEVELS,       /* the paper's hierarchy (section 4.2), kept in memory; pi on each level */
-  GATHER_PAPER_LEVELS, /* the same as published: averaged on the fly, one random sample */
-  GATHER_CUT,          /* blocks of views, as few as the tolerance allows (cut.h); micro lights
-                          where that is no faster, and behind occluders */
-  GATHER_METHODS,
-  GATHER_GL = GATHER_METHODS /* as GATHER_VIEWS, by a graphics processor: gl_gather.h */
-};
-
-const char *gather_method_name(enum gather_method method);
-/* Knows all but GATHER_GL. */
-bool gather_method_parse(const char *name, enum gather_method *method);
-
-/* Someone in the scene who gathers light. `index` seeds the method `paper`. */
-struct receiver {
-  double position[3], normal[3]; /* scene space; normal unit */
-  double lift[3];                /* unit geometric normal, along which shadow rays start */
-  double eye[3];                 /* unit, towards who looks; for gloss only */
-  double shininess;              /* exponent of the highlight; 0: matte */
-  uint64_t index;
-};
-
-struct gathered {
-  double irradiance[3];
-  double gloss[3]; /* integral of L (N.H)^shininess over the solid angle above the tangent
-                      plane; 0 for matte receivers */
-  double error;    /* predicted, relative: the largest of its pages'; INFINITY: not known */
-};
-
-struct gather_counts {
-  uint64_t receivers;
-  uint64_t microlights; /* visited */
-  uint64_t nodes;       /* at which the kernel was evaluated */
-  uint64_t black;       /* micro lights that were skipped: all their samples are 0 */
-  uint64_t shadow_rays;
-  uint64_t open_views;   /* views of a page for which none were traced: nothing between */
-  uint64_t pages_behind; /* pages that were skipped: the receiver is behind them, beside all
-                            that they emit, or they are below its tangent plane */
-  double error;          /* the largest of the receivers' */
-};
 
 /* What some methods make of the slabs before the first receiver: indexed by page, counted
  * through all lights. */

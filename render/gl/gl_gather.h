@@ -2,8 +2,8 @@
 #ifndef GL_GATHER_H
 #define GL_GATHER_H
 
-#include "gather/gather.h"
 #include "gl/gl_sum.h"
+#include "microlight/receiver.h"
 
 enum { GL_GATHER_MOST = 1024 * 256 }; /* receivers at a time */
 

@@ -8,7 +8,6 @@
 
 #include "base/vector.h"
 #include "gl/gl_program.h"
-#include "picture/shade.h"
 
 /* A corner of a triangle, as raster.vert.glsl takes it. */
 struct corner {
@@ -43,7 +42,7 @@ static void set_parts(struct gl_raster *raster) {
     part->first = first;
     part->texture = material->texture < 0 ? 0 : raster->textures[material->texture];
     first += part->count;
-    raster->glossy = raster->glossy || (part->count > 0 && shade_glossy(material));
+    raster->glossy = raster->glossy || (part->count > 0 && scene_glossy(material));
   }
 }
 
@@ -189,7 +188,7 @@ static void set_camera(const struct gl_raster *raster, const struct camera *came
 static void set_material(const struct scene_material *material, unsigned texture,
                          unsigned program) {
   static const double none[3] = {0};
-  bool gloss = shade_glossy(material);
+  bool gloss = scene_glossy(material);
   gl_set_floats(program, "diffuse", 3, material->diffuse);
   gl_set_floats(program, "specular", 3, gloss ? material->specular : none);
   gl_set_floats(program, "emission", 3, material->emission);

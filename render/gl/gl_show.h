@@ -2,7 +2,8 @@
 #ifndef GL_SHOW_H
 #define GL_SHOW_H
 
-#include "file/slab_exr.h"
+#include "base/picture.h"
+#include "base/result.h"
 #include "gl/gl_raster.h"
 
 struct gl_show {

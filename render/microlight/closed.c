@@ -8,7 +8,7 @@
 static const double tolerance = 1e-11;
 
 /* One part of a micro light, which its Gauss nodes suffice for. */
-static void add_part(const struct seen_page *view, const struct rule_nodes nodes[2],
+static void add_part(const struct seen_page *seen, const struct rule_nodes nodes[2],
                      const int part[2], double weight[4][4], struct row_sum_counts *counts) {
   const struct strip *strips[2];
   int first[2], count[2];
@@ -18,11 +18,11 @@ static void add_part(const struct seen_page *view, const struct rule_nodes nodes
     count[axis] = nodes[axis].first[part[axis] + 1] - first[axis];
   }
   double range[2];
-  kernel_heights(&view->kernel, (double[2]){strips[0]->low, strips[1]->low},
+  kernel_heights(&seen->kernel, (double[2]){strips[0]->low, strips[1]->low},
                  (double[2]){strips[0]->high, strips[1]->high}, range);
   if (range[1] <= 0) return;
   if (range[0] < 0) {
-    counts->nodes += (uint64_t)tangent_weights(&view->kernel, strips[0], strips[1],
+    counts->nodes += (uint64_t)tangent_weights(&seen->kernel, strips[0], strips[1],
                                                RULE_LARGEST_ORDER, weight, NULL);
     return;
   }
@@ -30,7 +30,7 @@ static void add_part(const struct seen_page *view, const struct rule_nodes nodes
   for (int h = 0; h < count[1]; ++h)
     for (int g = 0; g < count[0]; ++g) {
       double x[SIMD_LANES] = {nodes[0].at[first[0] + g]}, value[SIMD_LANES];
-      kernel_matte(&view->kernel, x, nodes[1].at[first[1] + h], 1, value);
+      kernel_matte(&seen->kernel, x, nodes[1].at[first[1] + h], 1, value);
       for (int row = 0; row < 4; ++row)
         for (int tap = 0; tap < 4; ++tap)
           weight[row][tap] +=
@@ -50,27 +50,27 @@ static struct parts next_parts(const struct rule_nodes *nodes, int first,
   return (struct parts){first, last};
 }
 
-static void add_cell(const struct seen_page *view, const struct strip *u, const struct strip *v,
+static void add_cell(const struct seen_page *seen, const struct strip *u, const struct strip *v,
                      const struct rule_nodes nodes[2], const struct parts parts[2],
                      const float *const rows[4], double irradiance[3],
                      struct row_sum_counts *counts) {
   double weight[4][4] = {{0}}, range[2];
   int offset[2];
-  kernel_heights(&view->kernel, (double[2]){u->low, v->low}, (double[2]){u->high, v->high}, range);
+  kernel_heights(&seen->kernel, (double[2]){u->low, v->low}, (double[2]){u->high, v->high}, range);
   if (range[1] <= 0) return;
   ++counts->microlights;
   if (range[0] >= 0 && closed_form_applies(u, v)) {
-    closed_form_weights(view->kernel.normal, u, v, weight);
+    closed_form_weights(seen->kernel.normal, u, v, weight);
   } else {
     for (int j = parts[1].first; j < parts[1].last; ++j)
       for (int i = parts[0].first; i < parts[0].last; ++i)
-        add_part(view, nodes, (int[2]){i, j}, weight, counts);
+        add_part(seen, nodes, (int[2]){i, j}, weight, counts);
   }
-  seen_page_columns(view, &u->taps, offset);
+  seen_page_columns(seen, &u->taps, offset);
   taps_sum_cell(rows, offset, (const double(*)[4])weight, irradiance);
 }
 
-enum result closed_sum(const struct seen_page *view, const struct strips strips[2],
+enum result closed_sum(const struct seen_page *seen, const struct strips strips[2],
                        struct rule_nodes nodes[2], double irradiance[3],
                        struct row_sum_counts *counts, struct error *error) {
   const struct rule_orders orders = rule_orders(tolerance);
@@ -85,10 +85,10 @@ enum result closed_sum(const struct seen_page *view, const struct strips strips[
     const float *rows[4];
     parts[1] = next_parts(&nodes[1], parts[1].last, v);
     parts[0].last = 0;
-    seen_page_rows(view, &v->taps, rows);
+    seen_page_rows(seen, &v->taps, rows);
     for (int c = 0; c < strips[0].count; ++c) {
       parts[0] = next_parts(&nodes[0], parts[0].last, &strips[0].strip[c]);
-      add_cell(view, &strips[0].strip[c], v, nodes, parts, rows, irradiance, counts);
+      add_cell(seen, &strips[0].strip[c], v, nodes, parts, rows, irradiance, counts);
     }
   }
   return RESULT_OK;

@@ -6,7 +6,7 @@
 #include "microlight/row_sum.h"
 
 /* Adds the irradiance; for matte receivers. `nodes` is scratch. */
-enum result closed_sum(const struct seen_page *view, const struct strips strips[2],
+enum result closed_sum(const struct seen_page *seen, const struct strips strips[2],
                        struct rule_nodes nodes[2], double irradiance[3],
                        struct row_sum_counts *counts, struct error *error);
 

@@ -59,11 +59,11 @@ void levels_free(struct levels *levels) {
   *levels = (struct levels){0};
 }
 
-int levels_choose(const struct levels *levels, const struct seen_page *view) {
+int levels_choose(const struct levels *levels, const struct seen_page *seen) {
   int level = levels->count;
   for (int axis = 0; axis < 2; ++axis) {
-    const struct light_axis *along = &view->page->axes[axis];
-    double cells = along->far_step * view->height / along->near_step;
+    const struct light_axis *along = &seen->page->axes[axis];
+    double cells = along->far_step * seen->height / along->near_step;
     int most = cells >= 1 ? (int)fmin(log2(cells), 1e6) : 0;
     if (most < level) level = most;
   }

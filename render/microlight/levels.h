@@ -25,6 +25,6 @@ void levels_free(struct levels *levels); /* NULL allowed; frees what it points t
 
 /* The level at which a uv cell, seen from the receiver, covers at most about one st cell: from
  * there on the samples fall linearly with the solid angle of the aperture. */
-int levels_choose(const struct levels *levels, const struct seen_page *view);
+int levels_choose(const struct levels *levels, const struct seen_page *seen);
 
 #endif

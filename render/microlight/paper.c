@@ -64,30 +64,30 @@ static void interpolate(const struct slab *fine, const struct slab *level, const
     }
 }
 
-static void add_cell(const struct seen_page *view, const struct light_page *fine,
+static void add_cell(const struct seen_page *seen, const struct light_page *fine,
                      const struct strip *u, const struct strip *v, uint64_t *seed,
                      double irradiance[3], double gloss[3]) {
   double x[SIMD_LANES] = {0}, value[SIMD_LANES], along_u[4], along_v[4], rgb[3];
   double across = uniform(seed), up = uniform(seed);
   double y = v->low + up * v->width, area = u->width * v->width;
   x[0] = u->low + across * u->width;
-  double height = kernel_height(&view->kernel, x[0], y), square = 1 + x[0] * x[0] + y * y;
+  double height = kernel_height(&seen->kernel, x[0], y), square = 1 + x[0] * x[0] + y * y;
   if (!(height > 0)) return;
   rule_hats(u, across, along_u);
   rule_hats(v, up, along_v);
-  interpolate(&fine->slab, &view->page->slab, u, v, along_u, along_v, rgb);
+  interpolate(&fine->slab, &seen->page->slab, u, v, along_u, along_v, rgb);
   for (int c = 0; c < 3; ++c) irradiance[c] += area * rgb[c] * height / (square * square);
-  if (view->kernel.shininess <= 0) return;
-  kernel_gloss(&view->kernel, x, y, 1, value);
+  if (seen->kernel.shininess <= 0) return;
+  kernel_gloss(&seen->kernel, x, y, 1, value);
   for (int c = 0; c < 3; ++c) gloss[c] += area * rgb[c] * value[0];
 }
 
-void paper_sum(const struct seen_page *view, const struct light_page *fine,
+void paper_sum(const struct seen_page *seen, const struct light_page *fine,
                const struct strips strips[2], uint64_t seed, double irradiance[3], double gloss[3],
                struct row_sum_counts *counts) {
   for (int r = 0; r < strips[1].count; ++r)
     for (int c = 0; c < strips[0].count; ++c)
-      add_cell(view, fine, &strips[0].strip[c], &strips[1].strip[r], &seed, irradiance, gloss);
+      add_cell(seen, fine, &strips[0].strip[c], &strips[1].strip[r], &seed, irradiance, gloss);
   uint64_t count = (uint64_t)strips[0].count * (uint64_t)strips[1].count;
   counts->microlights += count;
   counts->nodes += count;

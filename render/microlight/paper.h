@@ -10,7 +10,7 @@
  * the one of which the view's page is a level (levels.h): then each value is the mean of the
  * samples that it stands for, averaged on the fly as published (section 4.2). `seed` makes the
  * samples: same seed, same samples. */
-void paper_sum(const struct seen_page *view, const struct light_page *fine,
+void paper_sum(const struct seen_page *seen, const struct light_page *fine,
                const struct strips strips[2], uint64_t seed, double irradiance[3], double gloss[3],
                struct row_sum_counts *counts);
 

@@ -38,7 +38,7 @@ static double reach(const struct strips *strips) {
 static void set_columns(struct row_sum *cells) {
   const struct rule_nodes *u = &cells->nodes[0];
   for (int c = 0; c < u->strips.count; ++c) {
-    seen_page_columns(&cells->view, &u->strips.strip[c].taps, cells->offset[c]);
+    seen_page_columns(&cells->seen, &u->strips.strip[c].taps, cells->offset[c]);
     if (cells->kind == ROW_SUM_GAUSS) continue;
     double weight[4];
     for (int tap = 0; tap < 4; ++tap) weight[tap] = u->weight[c][tap] / cells->unit[0];
@@ -46,10 +46,10 @@ static void set_columns(struct row_sum *cells) {
   }
 }
 
-enum result row_sum_prepare(struct row_sum *cells, const struct seen_page *view,
+enum result row_sum_prepare(struct row_sum *cells, const struct seen_page *seen,
                             const struct strips strips[2], enum row_sum_kind kind, enum rule rule,
                             const struct rule_orders *orders, struct error *error) {
-  cells->view = *view;
+  cells->seen = *seen;
   cells->kind = kind;
   cells->row = 0;
   memset(cells->rgb, 0, sizeof cells->rgb);
@@ -60,13 +60,13 @@ enum result row_sum_prepare(struct row_sum *cells, const struct seen_page *view,
     low[axis] = along->strip[0].low;
     high[axis] = along->strip[along->count - 1].high;
     cells->unit[axis] = kind == ROW_SUM_GAUSS ? 1 : reach(along);
-    if (axis == 1 && kind != ROW_SUM_GAUSS) cells->unit[axis] *= view->page->unit;
-    double pole = fmin(rule_pole(&strips[1 - axis]), kernel_pole(&view->kernel));
+    if (axis == 1 && kind != ROW_SUM_GAUSS) cells->unit[axis] *= seen->page->unit;
+    double pole = fmin(rule_pole(&strips[1 - axis]), kernel_pole(&seen->kernel));
     result = rule_place(along, rule, orders, pole, &cells->nodes[axis], error);
   }
   if (result == RESULT_OK) result = reserve_columns(cells, error);
   if (result != RESULT_OK) return result;
-  kernel_heights(&view->kernel, low, high, range);
+  kernel_heights(&seen->kernel, low, high, range);
   cells->above = range[0] >= 0;
   set_columns(cells);
   return RESULT_OK;
@@ -120,7 +120,7 @@ static int boundary(const struct strips *strips, double along, bool at_high, dou
 
 static struct span find_span(const struct row_sum *cells, const struct strip *row) {
   const struct strips *strips = &cells->nodes[0].strips;
-  const double *n = cells->view.kernel.normal;
+  const double *n = cells->seen.kernel.normal;
   int count = strips->count;
   if (cells->above || cells->kind == ROW_SUM_VIEWS) return (struct span){{0, count}, {0, 0}};
   double least = fmin(n[1] * row->low, n[1] * row->high) - n[2];
@@ -138,7 +138,7 @@ static struct span find_span(const struct row_sum *cells, const struct strip *ro
 static void sum_single(struct row_sum *cells, const struct span *span, const float *const rows[4],
                        struct row_sum_scratch *scratch, struct row_sum_counts *counts) {
   const struct rule_nodes *u = &cells->nodes[0], *v = &cells->nodes[1];
-  const struct kernel *kernel = &cells->view.kernel;
+  const struct kernel *kernel = &cells->seen.kernel;
   int first = span->full[0], count = span->full[1] - first;
   double weight[4], y = v->at[cells->row];
   for (int tap = 0; tap < 4; ++tap) weight[tap] = v->weight[cells->row][tap] / cells->unit[1];
@@ -156,7 +156,7 @@ static void sum_single(struct row_sum *cells, const struct span *span, const flo
 static void sum_gauss(struct row_sum *cells, const struct span *span, const float *const rows[4],
                       struct row_sum_scratch *scratch, struct row_sum_counts *counts) {
   const struct rule_nodes *u = &cells->nodes[0], *v = &cells->nodes[1];
-  const struct kernel *kernel = &cells->view.kernel;
+  const struct kernel *kernel = &cells->seen.kernel;
   int first = u->first[span->full[0]], count = u->first[span->full[1]] - first;
   int row = v->first[cells->row], row_nodes = v->first[cells->row + 1] - row;
   const double *at[RULE_LARGEST_ORDER];
@@ -185,7 +185,7 @@ static void sum_cut(struct row_sum *cells, const struct span *span, const float 
                     struct row_sum_counts *counts) {
   const struct rule_nodes *u = &cells->nodes[0], *v = &cells->nodes[1];
   const struct strip *row = &v->strips.strip[cells->row];
-  const struct kernel *kernel = &cells->view.kernel;
+  const struct kernel *kernel = &cells->seen.kernel;
   double scale = 1 / (cells->unit[0] * cells->unit[1]);
   for (int c = span->cut[0]; c < span->cut[1]; ++c) {
     double weight[4][4] = {{0}}, gloss[4][4] = {{0}};
@@ -207,9 +207,9 @@ static void sum_cut(struct row_sum *cells, const struct span *span, const float 
 }
 
 /* Where any of the row's samples is not 0. */
-static struct lit_row find_lit(const struct seen_page *view, const struct strip_taps *taps) {
-  const struct lit_row *rows = view->page->lit;
-  int count = view->page->axes[1].far_count;
+static struct lit_row find_lit(const struct seen_page *seen, const struct strip_taps *taps) {
+  const struct lit_row *rows = seen->page->lit;
+  int count = seen->page->axes[1].far_count;
   struct lit_row lit = rows[taps->near * count + taps->far];
   for (int tap = 1; tap < 4; ++tap) {
     int near = taps->near + (tap >> 1) * taps->near_up, far = taps->far + (tap & 1) * taps->far_up;
@@ -235,14 +235,14 @@ static void trim(const struct strips *strips, const struct lit_row *lit, int ran
 void row_sum_add_row(struct row_sum *cells, struct row_sum_scratch *scratch,
                      struct row_sum_counts *counts) {
   const struct strip *row = &cells->nodes[1].strips.strip[cells->row];
-  const struct lit_row lit = find_lit(&cells->view, &row->taps);
+  const struct lit_row lit = find_lit(&cells->seen, &row->taps);
   struct span span = find_span(cells, row);
   const float *rows[4];
   if (cells->skip_black) {
     trim(&cells->nodes[0].strips, &lit, span.full, &counts->black);
     trim(&cells->nodes[0].strips, &lit, span.cut, &counts->black);
   }
-  seen_page_rows(&cells->view, &row->taps, rows);
+  seen_page_rows(&cells->seen, &row->taps, rows);
   if (span.full[1] > span.full[0])
     (cells->kind == ROW_SUM_GAUSS ? sum_gauss : sum_single)(cells, &span, rows, scratch, counts);
   sum_cut(cells, &span, rows, counts);

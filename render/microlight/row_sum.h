@@ -20,7 +20,7 @@ enum row_sum_kind {
 };
 
 struct row_sum {
-  struct seen_page view;
+  struct seen_page seen;
   enum row_sum_kind kind;
   struct rule_nodes nodes[2];  /* along u and v; owned */
   struct taps_column *columns; /* all but ROW_SUM_GAUSS: one a strip along u; owned */
@@ -42,7 +42,7 @@ struct row_sum_counts {
 void row_sum_free(struct row_sum *cells);
 
 /* Prepares the sum over the strips; `rule` and `orders` as for rule_place. */
-enum result row_sum_prepare(struct row_sum *cells, const struct seen_page *view,
+enum result row_sum_prepare(struct row_sum *cells, const struct seen_page *seen,
                             const struct strips strips[2], enum row_sum_kind kind, enum rule rule,
                             const struct rule_orders *orders, struct error *error);
 

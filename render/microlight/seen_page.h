@@ -4,8 +4,9 @@
 
 #include <stdbool.h>
 
-#include "gather/gather.h"
+#include "light/light.h"
 #include "microlight/kernel.h"
+#include "microlight/receiver.h"
 #include "microlight/strips.h"
 
 struct seen_page {
@@ -16,21 +17,21 @@ struct seen_page {
 
 /* False where the page is turned away: the receiver is behind the uv plane. */
 bool seen_page_find(const struct light_page *page, const struct receiver *receiver,
-                    struct seen_page *view);
+                    struct seen_page *seen);
 
 /* The strips along u and along v, or for each view of the page (strips_find_views). */
-enum result seen_page_strips(const struct seen_page *view, bool each_view, struct strips strips[2],
+enum result seen_page_strips(const struct seen_page *seen, bool each_view, struct strips strips[2],
                              struct error *error);
 
 /* The first float of a row or column of the page's raster, for one sample along u or v and
  * one along s or t. axis: 0 for columns, 1 for rows. */
-size_t seen_page_offset(const struct seen_page *view, int axis, int near, int far);
+size_t seen_page_offset(const struct seen_page *seen, int axis, int near, int far);
 
 /* The four rows of a strip along v, as taps.h takes them. */
-void seen_page_rows(const struct seen_page *view, const struct strip_taps *taps,
+void seen_page_rows(const struct seen_page *seen, const struct strip_taps *taps,
                     const float *rows[4]);
 
 /* The pixels of a strip along u, as taps.h takes them. */
-void seen_page_columns(const struct seen_page *view, const struct strip_taps *taps, int offset[2]);
+void seen_page_columns(const struct seen_page *seen, const struct strip_taps *taps, int offset[2]);
 
 #endif

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "cmd/stats.h"
 
 /* Of the first pass where time is limited. */
 static const double coarsest_tolerance = 0.3;
@@ -159,7 +158,7 @@ static enum result run_pass(struct image *image, struct image_report *report, st
     result = tiles_run(settings->threads, image->count, do_tile, show_progress, image, error);
   for (int k = 0; k < settings->threads; ++k) {
     struct gather *gather = image->workers[k].gather;
-    if (gather) stats_add_counts(&report->counts, gather_counts(gather));
+    if (gather) gather_counts_add(&report->counts, gather_counts(gather));
     gather_free(gather);
     image->workers[k].gather = NULL;
   }

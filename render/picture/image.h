@@ -7,8 +7,9 @@
 
 #include <stdbool.h>
 
+#include "base/picture.h"
+#include "base/result.h"
 #include "base/tiles.h"
-#include "file/slab_exr.h"
 #include "gather/gather.h"
 #include "gl/gl_sum.h"
 #include "picture/shade.h"

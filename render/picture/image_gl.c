@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "cmd/stats.h"
 #include "gl/gl_gather.h"
 #include "picture/image.h"
 
@@ -111,7 +110,7 @@ enum result image_render_gl(const struct image_settings *settings, struct pictur
       settings->progress(settings->progress_context, (double)band.first / (double)pixels);
   }
   if (result == RESULT_OK) {
-    stats_add_counts(&report->counts, gl_gather_counts(gl));
+    gather_counts_add(&report->counts, gl_gather_counts(gl));
     report->passes = 1;
     report->error = INFINITY;
   }

@@ -2,7 +2,8 @@
 #ifndef PREVIEW_H
 #define PREVIEW_H
 
-#include "file/slab_exr.h"
+#include "base/picture.h"
+#include "base/result.h"
 
 /* The radiance that becomes white unless somebody chooses: 99 % of the pixels, by their
  * brightest channel, are at most 0.9 times as bright. 1 where the picture is black.

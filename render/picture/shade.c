@@ -12,10 +12,6 @@ static bool any(const double rgb[3]) {
   return rgb[0] != 0 || rgb[1] != 0 || rgb[2] != 0;
 }
 
-bool shade_glossy(const struct scene_material *material) {
-  return material->shininess > 0 && any(material->specular);
-}
-
 static void turn_towards(const double eye[3], double normal[3]) {
   if (vector_dot(eye, normal) >= 0) return;
   for (int c = 0; c < 3; ++c) normal[c] = -normal[c];
@@ -28,7 +24,7 @@ static void shade_surface(const struct shade *shade, const struct occlusion_hit 
   struct receiver *receiver = &hit->receiver;
   memcpy(hit->shows, material->emission, sizeof hit->shows);
   scene_diffuse(scene, met->triangle, met->share, hit->diffuse);
-  bool gloss = shade_glossy(material);
+  bool gloss = scene_glossy(material);
   if (gloss) memcpy(hit->specular, material->specular, sizeof hit->specular);
   hit->lit = gloss || any(hit->diffuse);
   if (!hit->lit) return;

@@ -15,7 +15,6 @@
 
 struct occlusion;
 struct scene;
-struct scene_material;
 
 struct shade {
   const struct scene *scene;
@@ -24,9 +23,6 @@ struct shade {
   int light_count;
   double background[3];
 };
-
-/* Does it have a highlight? */
-bool shade_glossy(const struct scene_material *material);
 
 /* What a ray meets. */
 struct shade_hit {

@@ -3,7 +3,7 @@
 #ifndef POV_INCLUDE_H
 #define POV_INCLUDE_H
 
-#include "base/name.h"
+#include "base/sdl.h"
 #include "light/light.h"
 
 struct pov_include {

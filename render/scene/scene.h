@@ -23,7 +23,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "file/slab_exr.h"
+#include "base/picture.h"
+#include "base/result.h"
 
 struct scene_material {
   char name[128];
@@ -68,6 +69,9 @@ enum scene_needs {
 enum result scene_load(const char *path, enum scene_needs needs, bool repair, struct scene *scene,
                        char note[256], struct error *error);
 void scene_free(struct scene *scene); /* zeroed scene allowed */
+
+/* Does it have a highlight? */
+bool scene_glossy(const struct scene_material *material);
 
 /* The box around all vertices. */
 void scene_box(const struct scene *scene, double low[3], double high[3]);

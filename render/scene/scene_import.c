@@ -228,12 +228,12 @@ static enum result add_mesh(struct import *import, const struct aiMesh *mesh, co
   enum result result = RESULT_OK;
   if (import->loading->needs == SCENE_SURFACES) result = check_normals(import, &instance, error);
   size_t vertices = instance.flat ? 3 * (size_t)triangles : mesh->mNumVertices;
-  if (!result) result = reserve(import, vertices, triangles, error);
-  if (result) return result;
+  if (result == RESULT_OK) result = reserve(import, vertices, triangles, error);
+  if (result != RESULT_OK) return result;
   size_t base = scene->vertices;
   for (unsigned v = 0; v < mesh->mNumVertices && !instance.flat; ++v)
     add_vertex(scene, &instance, v, NULL);
-  for (unsigned f = 0; f < mesh->mNumFaces && !result; ++f)
+  for (unsigned f = 0; f < mesh->mNumFaces && result == RESULT_OK; ++f)
     if (mesh->mFaces[f].mNumIndices == 3) result = add_triangle(import, &instance, f, base, error);
   import->used[mesh->mMaterialIndex] = true;
   return result;
@@ -243,10 +243,10 @@ static enum result add_node(struct import *import, const struct aiNode *node,
                             const struct placement *parent, struct error *error) {
   enum result result = RESULT_OK;
   struct placement placement = placement_child(parent, &node->mTransformation);
-  for (unsigned k = 0; k < node->mNumMeshes && !result; ++k)
+  for (unsigned k = 0; k < node->mNumMeshes && result == RESULT_OK; ++k)
     result = add_mesh(import, import->from->mMeshes[node->mMeshes[k]], node->mName.data, &placement,
                       error);
-  for (unsigned k = 0; k < node->mNumChildren && !result; ++k)
+  for (unsigned k = 0; k < node->mNumChildren && result == RESULT_OK; ++k)
     result = add_node(import, node->mChildren[k], &placement, error);
   return result;
 }
@@ -258,7 +258,7 @@ enum result scene_import_meshes(struct scene_loading *loading, const struct aiSc
   struct placement mirror = {.matrix = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}}};
   enum result result = RESULT_OK;
   if (from->mRootNode) result = add_node(&import, from->mRootNode, &mirror, error);
-  if (!result && loading->scene->triangles == 0)
+  if (result == RESULT_OK && loading->scene->triangles == 0)
     result = result_fail(error, RESULT_BAD, "%s: has no triangles%s", loading->path,
                          loading->dropped ? " with an area" : "");
   return result;

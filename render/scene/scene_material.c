@@ -130,11 +130,11 @@ static enum result check_gltf(struct scene_loading *loading, const struct aiMate
   } unread[] = {{aiTextureType_METALNESS, "metallic-roughness"},
                 {aiTextureType_EMISSIVE, "emissive"}};
   enum result result = RESULT_OK;
-  for (size_t k = 0; k < sizeof unread / sizeof *unread && !result; ++k)
+  for (size_t k = 0; k < sizeof unread / sizeof *unread && result == RESULT_OK; ++k)
     if (aiGetMaterialTextureCount(source, unread[k].type) > 0)
       result = scene_unread(loading, error, "%s: material '%s' has a texture that is %s",
                             loading->path, material->name, unread[k].name);
-  if (!result && metallic > 0 && material->texture >= 0)
+  if (result == RESULT_OK && metallic > 0 && material->texture >= 0)
     result = scene_unread(loading, error,
                           "%s: material '%s' is metallic and has a texture, also for its highlight",
                           loading->path, material->name);
@@ -182,7 +182,7 @@ static enum result from_gltf(struct scene_loading *loading, const struct aiScene
   if (aiGetMaterialTexture(source, aiTextureType_BASE_COLOR, 0, &name, NULL, NULL, NULL, NULL, NULL,
                            NULL) == aiReturn_SUCCESS)
     result = find_texture(loading, from, name.data, &material->texture, error);
-  return result ? result : check_gltf(loading, source, material, factors[0], error);
+  return result != RESULT_OK ? result : check_gltf(loading, source, material, factors[0], error);
 }
 
 static enum result check(const struct scene_loading *loading, const struct scene_material *material,
@@ -222,7 +222,7 @@ enum result scene_import_materials(struct scene_loading *loading, const struct a
   if (!scene->materials)
     return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
   scene->material_count = (int)from->mNumMaterials;
-  for (unsigned k = 0; k < from->mNumMaterials && !result; ++k) {
+  for (unsigned k = 0; k < from->mNumMaterials && result == RESULT_OK; ++k) {
     struct scene_material *material = &scene->materials[k];
     struct aiString name = {0};
     aiGetMaterialString(from->mMaterials[k], AI_MATKEY_NAME, &name);
@@ -235,9 +235,9 @@ enum result scene_import_materials(struct scene_loading *loading, const struct a
       result = from_gltf(loading, from, k, material, error);
     else
       make_white(material); /* PLY has none */
-    if (!result) result = check(loading, material, error);
+    if (result == RESULT_OK) result = check(loading, material, error);
   }
-  for (unsigned k = 0; k < from->mNumMeshes && !result; ++k)
+  for (unsigned k = 0; k < from->mNumMeshes && result == RESULT_OK; ++k)
     result = check_mesh(loading, from->mMeshes[k], error);
   return result;
 }

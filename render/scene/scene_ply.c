@@ -76,15 +76,15 @@ static enum result read_header(struct ply *ply, struct error *error) {
   char *line = NULL;
   size_t room = 0;
   bool ended = false;
-  while (!result && !ended && getline(&line, &room, ply->file) >= 0) {
+  while (result == RESULT_OK && !ended && getline(&line, &room, ply->file) >= 0) {
     line[strcspn(line, "\r\n")] = 0;
     ended = strcmp(line, "end_header") == 0;
     if (!ended) result = read_header_line(ply, line, error);
   }
-  if (!result && !ended && !feof(ply->file))
+  if (result == RESULT_OK && !ended && !feof(ply->file))
     result = result_fail(error, RESULT_IO, "%s: %s", ply->path, strerror(errno));
   free(line);
-  if (!result && !ended)
+  if (result == RESULT_OK && !ended)
     result = result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: its header has no end",
                          ply->path);
   return result;
@@ -153,7 +153,7 @@ enum result scene_ply_check(const char *path, struct error *error) {
   struct ply ply = {.path = path, .file = fopen(path, "re")};
   if (!ply.file) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
   enum result result = read_header(&ply, error);
-  if (!result) result = skip_data(&ply, error);
+  if (result == RESULT_OK) result = skip_data(&ply, error);
   fclose(ply.file);
   return result;
 }

@@ -36,12 +36,12 @@ static enum result read_lines(struct scene_loading *loading, const char *path, l
   struct line line = {.path = path};
   FILE *file = fopen(path, "re");
   if (!file) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
-  while (!result && getline(&text, &room, file) >= 0) {
+  while (result == RESULT_OK && getline(&text, &room, file) >= 0) {
     ++line.number;
     split(text, &line);
     result = reader(loading, &line, error);
   }
-  if (!result && !feof(file))
+  if (result == RESULT_OK && !feof(file))
     result = result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
   free(text);
   fclose(file);
@@ -105,7 +105,7 @@ static enum result read_texture(struct scene_loading *loading, const struct line
   if (name[0] == '-') { /* options; the name is taken to be the last word */
     enum result result = scene_unread(loading, error, "%s:%zu: '%s %s' has an option", line->path,
                                       line->number, line->keyword, line->rest);
-    if (result) return result;
+    if (result != RESULT_OK) return result;
     const char *blank = name + strlen(name);
     while (blank > name && !strchr(BLANKS, blank[-1])) --blank;
     name = blank;
@@ -151,7 +151,7 @@ static enum result read_library(struct scene_loading *loading, const struct line
     result = RESULT_OK; /* its materials will be white */
   else if (result == RESULT_IO)
     result_fail(error, result, "%s:%zu: mtllib: %s", line->path, line->number, inner.text);
-  else if (result)
+  else if (result != RESULT_OK)
     result_fail(error, result, "%s", inner.text);
   free(path);
   return result;
@@ -197,7 +197,7 @@ static enum result read_gltf(struct scene_loading *loading, struct error *error)
   }
   if (ferror(file))
     result = result_fail(error, RESULT_IO, "%s: %s", loading->path, strerror(errno));
-  for (size_t k = 0; k < sizeof unread / sizeof *unread && !result; ++k)
+  for (size_t k = 0; k < sizeof unread / sizeof *unread && result == RESULT_OK; ++k)
     if (found[k]) result = scene_unread(loading, error, "%s: has %s", loading->path, unread[k]);
 out:
   free(text);

@@ -131,7 +131,7 @@ enum result occlusion_create(const struct scene *scene, struct occlusion **occlu
   made->empty = scene->triangles == 0;
   enum result result = made->empty ? RESULT_OK : build(scene, made, error);
   if (result == RESULT_OK) result = shaft_tree_create(scene, &made->shafts, error);
-  if (result)
+  if (result != RESULT_OK)
     occlusion_free(made);
   else
     *occlusion = made;

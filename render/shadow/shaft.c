@@ -80,7 +80,8 @@ static void build(struct shaft_tree *tree, int first, int last) {
   build(tree, middle, last);
 }
 
-enum result shaft_tree_create(const struct scene *scene, struct shaft_tree **tree, struct error *error) {
+enum result shaft_tree_create(const struct scene *scene, struct shaft_tree **tree,
+                              struct error *error) {
   size_t count = scene->triangles;
   if (count > (1 << 29))
     return result_fail(error, RESULT_MEMORY, "%zu triangles are too many", count);
@@ -183,8 +184,7 @@ static bool search(const struct shaft_tree *tree, const struct shaft *shaft, int
   double corners[8][3];
   box_corners(node->low, node->high, corners);
   if (apart((const double(*)[3])corners, 8, (const double(*)[3])shaft->hull, HULL)) return false;
-  if (node->right > 0)
-    return search(tree, shaft, index + 1) || search(tree, shaft, node->right);
+  if (node->right > 0) return search(tree, shaft, index + 1) || search(tree, shaft, node->right);
   for (int k = node->first; k < node->last; ++k)
     if (may_block(shaft, &tree->triangles[k])) return true;
   return false;

@@ -16,7 +16,8 @@ struct scene;
 struct shaft_tree; /* owned by whoever made it; thread-safe once made */
 
 /* Keeps no reference to the scene. */
-enum result shaft_tree_create(const struct scene *scene, struct shaft_tree **tree, struct error *error);
+enum result shaft_tree_create(const struct scene *scene, struct shaft_tree **tree,
+                              struct error *error);
 void shaft_tree_free(struct shaft_tree *tree); /* NULL allowed */
 
 /* `receivers` are lifted off their surfaces (occlusion.h); `corners` are the aperture's. */

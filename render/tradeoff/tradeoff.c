@@ -9,7 +9,6 @@
 #include <time.h>
 
 #include "base/progress.h"
-#include "cmd/stats.h"
 #include "microlight/levels.h"
 
 const double tradeoff_truth = 1e-6;
@@ -127,7 +126,7 @@ static enum result gather_once(struct bench *bench, const struct gather_settings
   memset(counts, 0, sizeof *counts);
   for (int k = 0; k < threads; ++k) {
     struct worker *worker = &bench->workers[k];
-    if (worker->gather) stats_add_counts(counts, gather_counts(worker->gather));
+    if (worker->gather) gather_counts_add(counts, gather_counts(worker->gather));
     gather_free(worker->gather);
     *cpu += worker->cpu;
     worker->gather = NULL;

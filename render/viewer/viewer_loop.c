@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/progress.h"
+#include "file/slab_exr.h"
 #include "picture/preview.h"
 #include "viewer/viewer_camera.h"
 #include "viewer/viewer_status.h"

@@ -324,10 +324,13 @@ static void own(double apertures, char **names) {
   for (; *names; ++names) {
     struct slab *slabs;
     struct error error;
+    struct slab_sampling sampling;
     struct slab_accuracy floor;
     int pages;
     if (slab_file_load_all(*names, &slabs, &pages, &error)) die(error.text);
-    if (slab_accuracy_estimate(slabs, 1, &below, &floor, &error)) die(error.text);
+    if (slab_json_sampling(slabs, &sampling, &error) != RESULT_OK ||
+        slab_accuracy_estimate(slabs, &sampling, 1, &below, &floor, &error) != RESULT_OK)
+      die(error.text);
     float *sample = green(slabs);
     struct light light = {slabs->samples[SLAB_U], slabs->samples[SLAB_S], sample};
     printf("%.3g %.3g %.3g %.3g %.3g\n", 100 * floor.all, 100 * floor.st, 100 * floor.uv,

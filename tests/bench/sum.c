@@ -120,25 +120,25 @@ static void make_scattered(struct receiver receivers[COUNT]) {
 /* ---- What a receiver sees ---- */
 
 static uint64_t look(const struct light_page *page, const struct receiver *receiver,
-                     struct seen_page *view, struct strips strips[2]) {
+                     struct seen_page *seen, struct strips strips[2]) {
   struct error error;
-  if (!seen_page_find(page, receiver, view)) die("a receiver behind the lamp");
-  hold(seen_page_strips(view, false, strips, &error), &error);
+  if (!seen_page_find(page, receiver, seen)) die("a receiver behind the lamp");
+  hold(seen_page_strips(seen, false, strips, &error), &error);
   return (uint64_t)strips[0].count * (uint64_t)strips[1].count;
 }
 
 /* Marks the cache lines of a receiver's samples; returns how many were not marked as `mark`. */
-static uint64_t mark_lines(const struct seen_page *view, const struct strips strips[2],
+static uint64_t mark_lines(const struct seen_page *seen, const struct strips strips[2],
                            uint32_t *marks, uint32_t mark) {
   uint64_t fresh = 0;
   for (int r = 0; r < strips[1].count; ++r) {
     const float *rows[4];
-    seen_page_rows(view, &strips[1].strip[r].taps, rows);
+    seen_page_rows(seen, &strips[1].strip[r].taps, rows);
     for (int c = 0; c < strips[0].count; ++c) {
       int offset[2];
-      seen_page_columns(view, &strips[0].strip[c].taps, offset);
+      seen_page_columns(seen, &strips[0].strip[c].taps, offset);
       for (int pair = 0; pair < 8; ++pair) {
-        size_t from = (size_t)(rows[pair / 2] - view->page->slab.rgb + offset[pair % 2]);
+        size_t from = (size_t)(rows[pair / 2] - seen->page->slab.rgb + offset[pair % 2]);
         size_t last = (from + 5) * sizeof(float) / LINE;
         for (size_t line = from * sizeof(float) / LINE; line <= last; ++line) {
           fresh += marks[line] != mark;
@@ -151,7 +151,7 @@ static uint64_t mark_lines(const struct seen_page *view, const struct strips str
 }
 
 static void print_visible(const struct light_page *page, const struct receiver receivers[COUNT]) {
-  struct seen_page view;
+  struct seen_page seen;
   struct strips strips[2] = {{0}};
   size_t lines = (slab_sample_count(&page->slab) * 3 + SLAB_PADDING) * sizeof(float) / LINE + 1;
   uint32_t *marks = calloc(lines, sizeof *marks), mark = 0;
@@ -160,9 +160,9 @@ static void print_visible(const struct light_page *page, const struct receiver r
   for (int alone = 0; alone < 2; ++alone)
     for (int k = 0; k < COUNT; ++k) {
       mark += alone || k % TOGETHER == 0;
-      uint64_t count = look(page, &receivers[k], &view, strips);
+      uint64_t count = look(page, &receivers[k], &seen, strips);
       if (!alone) visible += count;
-      fresh[alone] += mark_lines(&view, strips, marks, mark);
+      fresh[alone] += mark_lines(&seen, strips, marks, mark);
     }
   printf("visible %.1f %.2f %.2f\n", (double)visible / COUNT,
          (double)(fresh[0] * LINE) / (double)visible, (double)(fresh[1] * LINE) / (double)visible);
@@ -253,13 +253,13 @@ static void print_visits(int uv, int st, const struct receiver receivers[COUNT])
   static struct gathered gathered[COUNT];
   struct light light;
   struct light_page page;
-  struct seen_page view;
+  struct seen_page seen;
   struct strips strips[2] = {{0}};
   uint64_t sum_of = 0, most = 0, visited;
   bool fits = uv * st <= 4096;
   make_light(uv, st, fits, &light, &page);
   for (int k = 0; k < COUNT; ++k) {
-    uint64_t count = look(&page, &receivers[k], &view, strips);
+    uint64_t count = look(&page, &receivers[k], &seen, strips);
     sum_of += count;
     if (count > most) most = count;
   }

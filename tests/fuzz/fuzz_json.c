@@ -27,13 +27,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (slab_json_parse(text, &slab, white, &error) == RESULT_OK) {
     fuzz_check(slab_check(&slab, &error) == RESULT_OK);
     for (int c = 0; c < 3; ++c) fuzz_check(white[c] > 0);
-    free(slab_json_get(&slab, "provenance"));
-    free(slab_json_get_string(&slab, "provenance", "housing"));
-    slab_json_get_number(&slab, "provenance", "noise", "flux");
+    struct slab_sampling sampling;
+    json_t *root = NULL;
+    fuzz_check(slab_json_sampling(&slab, &sampling, &error) == RESULT_OK);
     fuzz_check(slab_json_record(&slab, "command", "tool", true, &error) == RESULT_OK);
-    char *command = slab_json_get_string(&slab, "provenance", "command");
-    fuzz_check(command && !strcmp(command, "command"));
-    free(command);
+    fuzz_check(slab_json_root(&slab, &root, &error) == RESULT_OK);
+    const json_t *command = json_object_get(json_object_get(root, "provenance"), "command");
+    fuzz_check(json_is_string(command) && !strcmp(json_string_value(command), "command"));
+    json_decref(root);
     write_again(&slab);
   }
   slab_free(&slab);

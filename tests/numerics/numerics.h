@@ -17,11 +17,12 @@
 #ifndef NUMERICS_H
 #define NUMERICS_H
 
-#define receiver test_receiver /* gather.h has another */
+#define receiver test_receiver /* receiver.h has another */
 #include "render/helpers.h"
 #undef receiver
 #include <stdio.h>
 
+#include "gather/gather.h"
 #include "gl/gl_gather.h"
 #include "render/oracle.h"
 

@@ -164,10 +164,10 @@ static double nodes(const struct lit *lit, double tolerance, const struct receiv
   struct cut_work *work = cut_work_make();
   *taken = 0;
   for (int k = 0; k < count; ++k) {
-    struct seen_page view;
+    struct seen_page seen;
     double irradiance[3];
-    assert_true(seen_page_find(&lit->page, &receivers[k], &view));
-    if (!cut_sum(lit->aids.trees[0], &view, tolerance, 0, work, irradiance, &counts)) continue;
+    assert_true(seen_page_find(&lit->page, &receivers[k], &seen));
+    if (!cut_sum(lit->aids.trees[0], &seen, tolerance, 0, work, irradiance, &counts)) continue;
     assert_true(counts.error <= tolerance);
     ++*taken;
     cut_finish(work);
@@ -314,20 +314,20 @@ static void test_threads(void **state) {
 }
 
 /* All views at once. */
-static void sum_views(const struct lit *lit, const struct seen_page *view, int nodes,
+static void sum_views(const struct lit *lit, const struct seen_page *seen, int nodes,
                       struct cut_views *views, double rgb[3]) {
-  assert_true(cut_views_prepare(lit->aids.trees[0], view, nodes, views));
+  assert_true(cut_views_prepare(lit->aids.trees[0], seen, nodes, views));
   cut_views_sum(&views, 1);
   cut_views_light(views, rgb);
 }
 
-static bool is_above(const struct seen_page *view) {
+static bool is_above(const struct seen_page *seen) {
   double low[2], high[2], range[2];
   for (int axis = 0; axis < 2; ++axis) {
-    low[axis] = (-view->page->axes[axis].half - view->foot[axis]) / view->height;
-    high[axis] = (view->page->axes[axis].half - view->foot[axis]) / view->height;
+    low[axis] = (-seen->page->axes[axis].half - seen->foot[axis]) / seen->height;
+    high[axis] = (seen->page->axes[axis].half - seen->foot[axis]) / seen->height;
   }
-  kernel_heights(&view->kernel, low, high, range);
+  kernel_heights(&seen->kernel, low, high, range);
   return range[0] > 0;
 }
 
@@ -346,14 +346,14 @@ static void hold_views(enum lamp lamp, double distance, int done[CUT_VIEWS_NODES
     most = fmax(most, largest(exact[r].irradiance) * pow(receivers[r].position[2], 2));
   for (int r = 0; r < COUNT; ++r)
     for (int digit = 2; digit <= 4; ++digit) {
-      struct seen_page view;
+      struct seen_page seen;
       double rgb[3], error;
-      assert_true(seen_page_find(&lit.page, &receivers[r], &view));
-      const int nodes = is_above(&view) ? cut_views_nodes(&view, pow(10, -digit), &error) : 0;
+      assert_true(seen_page_find(&lit.page, &receivers[r], &seen));
+      const int nodes = is_above(&seen) ? cut_views_nodes(&seen, pow(10, -digit), &error) : 0;
       if (nodes == 0) continue;
       assert_true(error <= pow(10, -digit));
-      sum_views(&lit, &view, nodes, views, rgb);
-      double light = fmax(largest(exact[r].irradiance), 1e-4 * most / pow(view.height, 2));
+      sum_views(&lit, &seen, nodes, views, rgb);
+      double light = fmax(largest(exact[r].irradiance), 1e-4 * most / pow(seen.height, 2));
       for (int c = 0; c < 3; ++c) {
         double off = fabs(rgb[c] - exact[r].irradiance[c]);
         assert_true(off <= error * light);
@@ -392,12 +392,12 @@ static void test_refuses(void **state) {
   struct receiver receiver = {.position = {0, 0, 20}, .normal = {0, 0, -1}, .eye = {0, 0, -1}};
   static const double along[3] = {1, 0, 0};
   for (int kind = 0; kind < 3; ++kind) {
-    struct seen_page view;
+    struct seen_page seen;
     double irradiance[3];
     receiver.shininess = kind == 1 ? 10 : 0;
     if (kind == 2) memcpy(receiver.normal, along, sizeof along);
-    assert_true(seen_page_find(&lit.page, &receiver, &view));
-    assert_int_equal(cut_sum(lit.aids.trees[0], &view, 1e-2, 0, work, irradiance, &counts),
+    assert_true(seen_page_find(&lit.page, &receiver, &seen));
+    assert_int_equal(cut_sum(lit.aids.trees[0], &seen, 1e-2, 0, work, irradiance, &counts),
                      kind == 0);
     cut_finish(work);
     if (kind == 0) assert_true(fabs(irradiance[0] * 20 * 20 - 1) < 0.01);

@@ -94,3 +94,20 @@ void write_bytes(const char *path, const void *bytes, size_t count) {
   assert_int_equal(fwrite(bytes, 1, count, file), count);
   assert_int_equal(fclose(file), 0);
 }
+
+struct slab_sampling sampling_of(const struct slab *slab) {
+  struct slab_sampling sampling;
+  struct error error;
+  assert_ok(slab_json_sampling(slab, &sampling, &error), &error);
+  return sampling;
+}
+
+char *json_of(const struct slab *slab, const char *key, const char *inner) {
+  json_t *root;
+  struct error error;
+  assert_ok(slab_json_root(slab, &root, &error), &error);
+  const json_t *value = json_object_get(root, key);
+  char *text = json_dumps(inner ? json_object_get(value, inner) : value, JSON_ENCODE_ANY);
+  json_decref(root);
+  return text;
+}

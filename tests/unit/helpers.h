@@ -4,6 +4,7 @@
 #define HELPERS_H
 
 #include "file/slab_file.h"
+#include "file/slab_json.h"
 #include "testing.h"
 
 /* A number in [0, 1) from a seed; the same on every machine. */
@@ -31,5 +32,11 @@ void assert_refused(enum result result, const struct error *error, ...);
 void assert_file_refused(const char *path, const char *piece1, const char *piece2);
 
 void write_bytes(const char *path, const void *bytes, size_t count);
+
+/* What a page's JSON says of its samples. */
+struct slab_sampling sampling_of(const struct slab *slab);
+
+/* The text of a value of a page's JSON, at key or key.inner; the caller frees it. */
+char *json_of(const struct slab *slab, const char *key, const char *inner);
 
 #endif

@@ -109,13 +109,17 @@ static double true_error(radiance *lamp, const struct slab *clean, const struct 
   return sqrt(wrong / all);
 }
 
+static void estimate(const struct slab *slab, int count, const double *distances,
+                     struct slab_accuracy *accuracy) {
+  struct slab_sampling sampling = sampling_of(slab);
+  struct error error;
+  assert_ok(slab_accuracy_estimate(slab, &sampling, count, distances, accuracy, &error), &error);
+}
+
 static void check_lamp(const char *name, radiance *lamp, int uv, int st) {
   struct slab slab = slab_of(lamp, uv, st);
   struct slab_accuracy floors[SLAB_ACCURACY_DISTANCES];
-  struct error error = {{0}};
-  assert_ok(slab_accuracy_estimate(&slab, SLAB_ACCURACY_DISTANCES, slab_accuracy_apertures, floors,
-                                   &error),
-            &error);
+  estimate(&slab, SLAB_ACCURACY_DISTANCES, slab_accuracy_apertures, floors);
   for (int n = 0; n < SLAB_ACCURACY_DISTANCES; ++n) {
     double truth = true_error(lamp, NULL, &slab, slab_accuracy_apertures[n]);
     print_message("# %s, %g apertures: %.3g %% estimated, %.3g %% true\n", name,
@@ -153,10 +157,10 @@ static void test_sharpened(void **state) {
   struct slab_accuracy before, after;
   struct error error = {{0}};
   const double distance = 4;
-  assert_ok(slab_accuracy_estimate(&slab, 1, &distance, &before, &error), &error);
+  estimate(&slab, 1, &distance, &before);
   assert_ok(slab_sharpen(&slab, SLAB_SHARPEN_EXACT, &error), &error);
-  assert_ok(slab_sharpen_record(&slab, SLAB_SHARPEN_EXACT, &error), &error);
-  assert_ok(slab_accuracy_estimate(&slab, 1, &distance, &after, &error), &error);
+  assert_ok(slab_json_record_sharpening(&slab, SLAB_SHARPEN_EXACT, &error), &error);
+  estimate(&slab, 1, &distance, &after);
   double truth = true_error(lobe, NULL, &slab, distance);
   assert_true(after.all < before.all / 5);
   assert_true(after.all > truth / 2 && after.all < truth * 2);
@@ -179,14 +183,14 @@ static void test_noise(void **state) {
     }
   const char *stated = "{\"noise\": {\"sample\": 0.3, \"flux\": 0}}";
   assert_ok(slab_json_set(&noisy, "provenance", stated, &error), &error);
-  assert_ok(slab_accuracy_estimate(&noisy, 2, distances, floors, &error), &error);
+  estimate(&noisy, 2, distances, floors);
   for (int n = 0; n < 2; ++n) {
     double truth = true_error(NULL, &clean, &noisy, distances[n]);
     assert_near(floors[n].noise / truth, 1, 0.35);
   }
   const char *shared = "{\"noise\": {\"sample\": 0, \"flux\": 0.25}}";
   assert_ok(slab_json_set(&clean, "provenance", shared, &error), &error);
-  assert_ok(slab_accuracy_estimate(&clean, 2, distances, floors, &error), &error);
+  estimate(&clean, 2, distances, floors);
   assert_near(floors[0].noise, 0.25, 1e-12);
   assert_near(floors[0].all, 0.25, 1e-6);
   assert_near(floors[0].st, 0, 1e-6);
@@ -197,7 +201,6 @@ static void test_noise(void **state) {
 static void test_units(void **state) {
   (void)state;
   struct slab small = slab_of(lobe, 4, 8), large = slab_of(lobe, 4, 8);
-  struct error error = {{0}};
   struct slab_accuracy floors[2];
   for (size_t n = 0; n < 3 * slab_sample_count(&large); ++n) large.rgb[n] *= 1e6F;
   for (int c = 0; c < 3; ++c) large.u[c] *= 1e-3, large.v[c] *= 1e-3, large.center[c] = 7;
@@ -206,8 +209,8 @@ static void test_units(void **state) {
     double distance = d ? 3 : 0.5, scaled = 1e-3 * distance;
     small.st_distance = d ? 3 : INFINITY; /* at 3, every point sees one sample of st */
     large.st_distance = d ? scaled : INFINITY;
-    assert_ok(slab_accuracy_estimate(&small, 1, &distance, &floors[0], &error), &error);
-    assert_ok(slab_accuracy_estimate(&large, 1, &scaled, &floors[1], &error), &error);
+    estimate(&small, 1, &distance, &floors[0]);
+    estimate(&large, 1, &scaled, &floors[1]);
     assert_true(floors[0].all > 0 && isfinite(floors[0].all));
     assert_near(floors[1].st / floors[0].st, 1, 1e-4);
     assert_near(floors[1].uv / floors[0].uv, 1, 1e-4);
@@ -221,16 +224,13 @@ static void test_corners(void **state) {
   (void)state;
   static const int grids[][4] = {
       {1, 1, 1, 1}, {1, 1, 16, 16}, {5, 4, 1, 3}, {1, 9, 2, 31}, {3, 3, 3, 3}};
-  struct error error = {{0}};
   struct slab_accuracy floors[SLAB_ACCURACY_DISTANCES];
   for (int g = 0; g < 5; ++g)
     for (int light = 0; light < 3; ++light) {
       struct slab slab = awkward_slab(grids[g], g % 2 ? 0.7 : INFINITY);
       if (light == 1) fill_colours(&slab, 3);
       if (light == 2) slab.rgb[3 * slab_sample_count(&slab) - 2] = -1;
-      assert_ok(slab_accuracy_estimate(&slab, SLAB_ACCURACY_DISTANCES, slab_accuracy_apertures,
-                                       floors, &error),
-                &error);
+      estimate(&slab, SLAB_ACCURACY_DISTANCES, slab_accuracy_apertures, floors);
       bool st = grids[g][2] > 3 || grids[g][3] > 3, uv = grids[g][0] > 3 || grids[g][1] > 3;
       for (int n = 0; n < SLAB_ACCURACY_DISTANCES; ++n) {
         assert_int_equal(isnan(floors[n].st), !st);

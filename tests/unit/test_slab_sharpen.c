@@ -179,25 +179,24 @@ static void test_record(void **state) {
   (void)state;
   struct slab slab = awkward_slab(grids[0], INFINITY);
   struct error error = {{0}};
-  assert_false(slab_is_sharpened(&slab));
+  assert_false(sampling_of(&slab).sharpened);
   assert_ok(
       slab_json_set(&slab, "provenance", "{\"tool\": \"x\", \"noise\": {\"flux\": 0.5}}", &error),
       &error);
-  assert_false(slab_is_sharpened(&slab));
-  assert_ok(slab_sharpen_record(&slab, SLAB_SHARPEN_POSITIVE, &error), &error);
-  assert_true(slab_is_sharpened(&slab));
-  char *how = slab_json_get_string(&slab, "provenance", "sharpened");
-  char *tool = slab_json_get_string(&slab, "provenance", "tool");
-  assert_string_equal(how, "st, not below zero");
-  assert_string_equal(tool, "x");
-  assert_near(slab_json_get_number(&slab, "provenance", "noise", "flux"), 0.5, 0);
-  assert_true(isnan(slab_json_get_number(&slab, "provenance", "noise", "sample")));
-  assert_true(isnan(slab_json_get_number(&slab, "provenance", "tool", "sample")));
+  assert_false(sampling_of(&slab).sharpened);
+  assert_ok(slab_json_record_sharpening(&slab, SLAB_SHARPEN_POSITIVE, &error), &error);
+  assert_true(sampling_of(&slab).sharpened);
+  char *how = json_of(&slab, "provenance", "sharpened");
+  char *tool = json_of(&slab, "provenance", "tool");
+  assert_string_equal(how, "\"st, not below zero\"");
+  assert_string_equal(tool, "\"x\"");
+  assert_near(sampling_of(&slab).flux_noise, 0.5, 0);
+  assert_true(isnan(sampling_of(&slab).sample_noise));
   free(how), free(tool);
   /* a provenance that is no object gives way */
   assert_ok(slab_json_set(&slab, "provenance", "\"by hand\"", &error), &error);
-  assert_ok(slab_sharpen_record(&slab, SLAB_SHARPEN_EXACT, &error), &error);
-  assert_true(slab_is_sharpened(&slab));
+  assert_ok(slab_json_record_sharpening(&slab, SLAB_SHARPEN_EXACT, &error), &error);
+  assert_true(sampling_of(&slab).sharpened);
   slab_free(&slab);
 }
 

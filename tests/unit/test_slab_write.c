@@ -234,8 +234,8 @@ static void test_unknown_keys_are_kept(void **state) {
     const char *path = scratch(kinds[k].name);
     assert_ok(slab_file_write(path, &slab, 1, kinds[k].precision, &error), &error);
     assert_ok(slab_file_load_all(path, &got, &count, &error), &error);
-    char *deep = slab_json_get(got, "x-colour"), *more = slab_json_get(got, "x-more");
-    char *are = slab_json_get(got, "samples_are");
+    char *deep = json_of(got, "x-colour", NULL), *more = json_of(got, "x-more", NULL);
+    char *are = json_of(got, "samples_are", NULL);
     assert_string_equal(deep, "{\"deep\": [1, 2.5, null, \"\xc3\xa4\"]}");
     assert_string_equal(more, "[true]");
     assert_string_equal(are, "\"points\"");
@@ -256,7 +256,7 @@ static void test_provenance(void **state) {
             &error);
   assert_ok(slab_json_record(&slab, "two", "t2", false, &error), &error);
   assert_ok(slab_json_record(&slab, "three", "t3", false, &error), &error);
-  char *text = slab_json_get(&slab, "provenance");
+  char *text = json_of(&slab, "provenance", NULL);
   assert_string_equal(text,
                       "{\"command\": \"three\", \"tool\": \"t3\", \"effects\": {\"gloss\": 1}, "
                       "\"history\": [{\"command\": \"one\", \"tool\": \"t1\"}, "
@@ -278,7 +278,7 @@ static void test_provenance_of_changed(void **state) {
             &error);
   for (int changed = 0; changed < 2; ++changed)
     assert_ok(slab_json_record(&slab, "next", "t", changed, &error), &error);
-  char *text = slab_json_get(&slab, "provenance");
+  char *text = json_of(&slab, "provenance", NULL);
   assert_string_equal(text, "{\"command\": \"next\", \"tool\": \"t\", \"effects\": {\"gloss\": 1}, "
                             "\"history\": [{\"command\": \"one\", \"tool\": \"t1\"}, "
                             "{\"command\": \"next\", \"tool\": \"t\", \"rays\": 16, "

@@ -11,7 +11,7 @@
 
 #include <stdint.h>
 
-#include "file/slab_exr.h"
+#include "base/picture.h"
 #include "include/text/include_text.h"
 #include "slab/slab.h"
 

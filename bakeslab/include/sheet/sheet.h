@@ -19,14 +19,9 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "file/slab_exr.h"
+#include "base/picture.h"
+#include "include/sheet/sheet_level.h"
 #include "include/text/include_text.h"
-#include "slab/slab.h"
-
-enum { SHEET_DISTANCES = 5 };
-
-/* Distances at which the error is told, in aperture widths (longer edge). */
-extern const double sheet_distances[SHEET_DISTANCES];
 
 /* Height of the openings that keep lights to their tiles, as a share of the sheet's height.
  * The higher, the wider they are, and the farther from the origin a lamp may stand: POV-Ray
@@ -34,16 +29,6 @@ extern const double sheet_distances[SHEET_DISTANCES];
  * scene units, between an opening and what casts a shadow behind it, which is the gap that
  * is left at least; and the lowest sheet that this leaves room for. */
 extern const double sheet_gate, sheet_gap, sheet_least_height;
-
-struct sheet_level {
-  struct slab views; /* block means of the page; owned */
-  int left, bottom;  /* corner of its tiles in the image, texels */
-  double peak;       /* radiance that the image holds as 1 */
-  double height;     /* of the sheet before its lights, at Scale 1 */
-  int lit;           /* lights whose view is not entirely black */
-  char *mask;        /* '1' for a lit light, '0' for a black one, Nv rows of Nu; owned */
-  double error[SHEET_DISTANCES]; /* relative RMSE of the irradiance, or INFINITY: too near */
-};
 
 struct sheet_page {
   struct sheet_level *levels; /* finest first; owned */

@@ -6,7 +6,7 @@
 #ifndef SHEET_ERROR_H
 #define SHEET_ERROR_H
 
-#include "include/sheet/sheet.h"
+#include "include/sheet/sheet_level.h"
 
 /* Sets `error[]` of each level: root of the mean squared error over the plane,
  * relative to the root of the mean squared irradiance. INFINITY where the sheet stands

@@ -1,0 +1,12 @@
+/* picture.c - see picture.h. */
+#include "base/picture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void picture_free(struct picture *picture) {
+  if (!picture) return;
+  free(picture->rgb);
+  free(picture->error);
+  memset(picture, 0, sizeof *picture);
+}

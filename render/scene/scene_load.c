@@ -1,0 +1,88 @@
+/* scene_load.c - loads a scene from end to end; see scene.h. */
+#include "scene/scene_load.h"
+
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static enum result find_format(struct scene_loading *loading, struct error *error) {
+  static const struct {
+    const char *suffix;
+    enum scene_format format;
+  } formats[] = {
+      {".obj", SCENE_OBJ}, {".gltf", SCENE_GLTF}, {".glb", SCENE_GLTF}, {".ply", SCENE_PLY}};
+  struct stat status;
+  if (stat(loading->path, &status) != 0 || access(loading->path, R_OK) != 0)
+    return result_fail(error, RESULT_IO, "%s: %s", loading->path, strerror(errno));
+  if (!S_ISREG(status.st_mode))
+    return result_fail(error, RESULT_BAD, "%s: is not a file", loading->path);
+  const char *dot = strrchr(loading->path, '.');
+  for (size_t k = 0; dot && k < sizeof formats / sizeof *formats; ++k)
+    if (strcasecmp(dot, formats[k].suffix) == 0) {
+      loading->format = formats[k].format;
+      return RESULT_OK;
+    }
+  return result_fail(error, RESULT_BAD,
+                     "%s: is no mesh that can be read; its name must end in .obj, .gltf, .glb or "
+                     ".ply",
+                     loading->path);
+}
+
+static enum result import(struct scene_loading *loading, struct error *error) {
+  enum result result = scene_text_read(loading, error);
+  if (result != RESULT_OK) return result;
+  bool *used = NULL;
+  const struct aiScene *from = aiImportFile(loading->path, aiProcess_Triangulate);
+  if (!from) {
+    result = result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: %s", loading->path,
+                         aiGetErrorString());
+    goto out;
+  }
+  used = calloc((size_t)from->mNumMaterials + 1, sizeof *used);
+  if (!used) {
+    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
+    goto out;
+  }
+  result = scene_import_meshes(loading, from, used, error);
+  if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
+    result = scene_import_materials(loading, from, used, error);
+out:
+  free(used);
+  if (from) aiReleaseImport(from);
+  return result;
+}
+
+static void write_note(const struct scene_loading *loading, char note[256]) {
+  const struct {
+    size_t count;
+    const char *what;
+  } repairs[] = {{loading->dropped, "triangles without area dropped"},
+                 {loading->flat, "meshes given flat normals"},
+                 {loading->white, "materials made white"},
+                 {loading->unread, "unsupported properties of materials ignored"}};
+  size_t at = 0;
+  note[0] = 0;
+  for (size_t k = 0; k < sizeof repairs / sizeof *repairs; ++k)
+    if (repairs[k].count > 0 && at < 200)
+      at += (size_t)snprintf(note + at, 256 - at, "%s%s: %zu", at > 0 ? "; " : "", repairs[k].what,
+                             repairs[k].count);
+}
+
+enum result scene_load(const char *path, enum scene_needs needs, bool repair, struct scene *scene,
+                       char note[256], struct error *error) {
+  struct scene_loading loading = {.path = path, .needs = needs, .repair = repair, .scene = scene};
+  *scene = (struct scene){0};
+  enum result result = find_format(&loading, error);
+  if (result == RESULT_OK) result = import(&loading, error);
+  note[0] = 0;
+  if (result == RESULT_OK) write_note(&loading, note);
+  free(loading.mtl);
+  if (result != RESULT_OK) scene_free(scene);
+  return result;
+}
