@@ -16,6 +16,9 @@ SETUP ?= yes
 ifeq ($(origin CC),default)
 CC := gcc
 endif
+ifeq ($(origin CXX),default)
+CXX := $(if $(findstring clang,$(CC)),clang++,g++)
+endif
 ifeq ($(filter release debug sanitize thread fuzz,$(config)),)
 $(error config=$(config) is none of release, debug, sanitize, thread and fuzz)
 endif
@@ -31,7 +34,8 @@ CFLAGS_debug    := -O0 -g
 CFLAGS_sanitize := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
 CFLAGS_thread   := -O1 -g -fsanitize=thread -fno-omit-frame-pointer
 CFLAGS_fuzz     := $(CFLAGS_sanitize) -fsanitize=fuzzer-no-link
-WARN := -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wvla
+WARN_BOTH := -Wall -Wextra -Wshadow -Wconversion -Wvla
+WARN := $(WARN_BOTH) -Wstrict-prototypes
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(shell pkg-config --cflags $(PACKAGES_USED) 2>/dev/null))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/null))$(PKG_LIBS)
@@ -41,6 +45,9 @@ RENDER_CFLAGS = $(eval RENDER_CFLAGS := -Irender $(shell pkg-config --cflags $(R
 RENDER_LIBS = $(eval RENDER_LIBS := -lembree3 $(shell pkg-config --libs $(RENDER_USED) 2>/dev/null))$(RENDER_LIBS)
 
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE $(WARN) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab $(PKG_CFLAGS) $(CFLAGS)
+# C++ is for shims around libraries that are C++ (CGAL, OpenImageIO), whose headers are system
+# headers here: their warnings are not ours.
+ALL_CXXFLAGS = -std=c++17 -D_GNU_SOURCE $(WARN_BOTH) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab -Irender $(CFLAGS)
 ALL_LDFLAGS = -Wl,--as-needed $(CFLAGS_$(config)) $(CFLAGS) $(LDFLAGS)
 ALL_LDLIBS = $(PKG_LIBS) -lpthread -lm $(LDLIBS)
 
@@ -54,9 +61,9 @@ quote = '$(subst ','\'',$(1))'
 .PHONY: FORCE all help setup man install uninstall clean
 
 # ---- Set-up: the Debian packages that the goals on the command line need.
-PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc) libc6-dev make pkg-config \
+PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc g++) libc6-dev make pkg-config \
   libtiff-dev libopenexr-dev libjansson-dev libxxhash-dev \
-  libembree-dev libassimp-dev libpng-dev libepoxy-dev libegl-dev libglfw3-dev
+  libcgal-dev libopenimageio-dev libembree-dev libassimp-dev libpng-dev libepoxy-dev libegl-dev libglfw3-dev
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
 PACKAGES_lamps := povray povray-includes jq
@@ -121,13 +128,18 @@ $(B)/flags: FORCE | $(SETUP_FIRST)
 	  echo 'The libraries $(PACKAGES_USED) $(RENDER_USED) (pkg-config names) are not all here: run `make setup`.' >&2; exit 1; }
 	@echo '#include <embree3/rtcore.h>' | $(CC) $(ALL_CFLAGS) -E -x c - >$@.new 2>&1 || { \
 	  echo 'The library Embree 3 (embree3/rtcore.h) is not here: run `make setup`.' >&2; exit 1; }
-	@printf '%s\n' $(call quote,$(CC) $(ALL_CFLAGS) / $(RENDER_CFLAGS) / $(ALL_LDFLAGS) $(RENDER_LIBS) $(ALL_LDLIBS)) >$@.new
+	@printf '%s\n' $(call quote,$(CC) $(ALL_CFLAGS) / $(RENDER_CFLAGS) / $(CXX) $(ALL_CXXFLAGS) / $(ALL_LDFLAGS) $(RENDER_LIBS) $(ALL_LDLIBS)) >$@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 $(B)/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(ALL_CFLAGS) $(EXTRA_CFLAGS) -MMD -MP -c $< -o $@
+
+$(B)/%.o: %.cc $(B)/flags
+	@mkdir -p $(@D)
+	$(call say,CXX,$<)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) $(EXTRA_CXXFLAGS) -MMD -MP -c $< -o $@
 
 $(B)/%.a:
 	$(call say,AR,$@)
