@@ -56,7 +56,7 @@ tradeoff: $(BIN) $(BENCH_FLOOR) $(TRADEOFF_LAMPS) $(DEMO)/parabolic.tif ## measu
 	@ln -sfn $(abspath $(DEMO)/parabolic.tif) build/tradeoff/parabolic.tif
 	@$(TEST_ENV) BUILD=$(abspath build/tradeoff) LAMPS=$(abspath $(TRADEOFF_LAMPS)) FLOOR=$(abspath $(BENCH_FLOOR)) tests/tradeoff/run.sh
 
-bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables that README.md quotes
+bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
