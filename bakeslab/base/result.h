@@ -25,6 +25,14 @@ struct error {
 enum result result_fail(struct error *error, enum result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* The same for "out of memory". */
+enum result result_no_memory(struct error *error);
+
+/* Puts the place before the message of a failure, as in "FILE: page 2: MESSAGE"; does nothing
+ * to RESULT_OK. Returns `result`. */
+enum result result_at(enum result result, struct error *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* Makes one line of a text: line ends become blanks. */
 void result_one_line(char *text);
 

@@ -1,5 +1,4 @@
-/* arguments.c - reads the files character by character: what is no text is
- * refused before it has filled the memory. */
+/* arguments.c - unquoting never lengthens a text: a file's words are made in place. */
 #include "cli/arguments.h"
 
 #include <errno.h>
@@ -10,37 +9,15 @@
 
 enum { MAX_DEPTH = 8 };
 
+static const char blanks[] = " \t\r\n\v\f";
+
 /* A file that is being read. */
 struct reader {
   const char *path;
-  FILE *file;
-  bool peeked;
-  int ahead;  /* where peeked */
-  int line;   /* of the last character */
-  int opened; /* line of the last quote that was opened */
+  int depth; /* 1 where the command line names the file */
+  char *at;  /* what comes next in its text */
+  int line;  /* there */
 };
-
-/* A word that grows; it has a zero at its end when all of it is there. */
-struct word {
-  char *text;
-  size_t length, room;
-};
-
-static enum result no_memory(struct error *error) {
-  return result_fail(error, RESULT_MEMORY, "out of memory");
-}
-
-static enum result append(struct word *word, int c, struct error *error) {
-  if (word->length == word->room) {
-    size_t room = word->room ? 2 * word->room : 64;
-    char *text = realloc(word->text, room);
-    if (!text) return no_memory(error);
-    word->text = text;
-    word->room = room;
-  }
-  word->text[word->length++] = (char)c;
-  return RESULT_OK;
-}
 
 /* Takes over `text`, also when it fails. */
 static enum result add(struct argument_words *arguments, char *text, struct error *error) {
@@ -48,7 +25,7 @@ static enum result add(struct argument_words *arguments, char *text, struct erro
   char **words = text ? realloc(arguments->words, (count + 2) * sizeof *words) : NULL;
   if (!words) {
     free(text);
-    return no_memory(error);
+    return result_no_memory(error);
   }
   words[count] = text;
   words[count + 1] = NULL;
@@ -57,131 +34,120 @@ static enum result add(struct argument_words *arguments, char *text, struct erro
   return RESULT_OK;
 }
 
-/* The character that next() will read; a line may end in CR LF. */
-static int peek(struct reader *reader) {
-  if (reader->peeked) return reader->ahead;
-  int c = getc(reader->file);
-  if (c == '\r') {
-    int after = getc(reader->file);
-    if (after == '\n')
-      c = after;
-    else
-      ungetc(after, reader->file);
-  }
-  reader->peeked = true;
-  reader->ahead = c;
-  return c;
-}
-
-static int next(struct reader *reader) {
-  int c = peek(reader);
-  reader->peeked = false;
-  if (c == '\n') ++reader->line;
-  return c;
-}
-
-static bool is_blank(int c) {
-  return c && strchr(" \t\r\n\v\f", c);
-}
-
-/* The character after a backslash in `quote`, or outside quotes where that is 0. */
-static enum result read_escaped(struct reader *reader, struct word *word, int quote,
-                                struct error *error) {
-  if (peek(reader) == 0) return RESULT_OK; /* refused like any other */
-  int c = next(reader);
-  if (c == '\n') return RESULT_OK;
-  if (c == EOF)
-    return quote ? RESULT_OK /* the quote is complained about */
-                 : result_fail(error, RESULT_BAD, "%s: line %d: ends in a backslash", reader->path,
-                               reader->line);
-  enum result result = RESULT_OK;
-  if (quote && !strchr("\"\\$`", c)) result = append(word, '\\', error);
-  return result == RESULT_OK ? append(word, c, error) : result;
-}
-
-/* Reads on to the end of a word, from its character c, which ends it where it is blank. */
-static enum result read_word(struct reader *reader, int c, struct word *word, struct error *error) {
-  int quote = 0;
-  enum result result = RESULT_OK;
-  for (; result == RESULT_OK && c != EOF && (quote || !is_blank(c)); c = next(reader)) {
-    if (c == 0)
-      return result_fail(error, RESULT_BAD, "%s: line %d: has a zero byte; it should be text",
-                         reader->path, reader->line);
-    if (quote ? c == quote : c == '\'' || c == '"') {
-      quote = quote ? 0 : c;
-      reader->opened = reader->line;
-    } else if (c == '\\' && quote != '\'') {
-      result = read_escaped(reader, word, quote, error);
+/* Takes quotes and backslashes out of the word that comes next, puts a zero at its end, and moves
+ * on behind it. */
+static enum result unquote(struct reader *reader, struct error *error) {
+  char *at = reader->at, *to = at, quote = 0;
+  int opened = 0;
+  for (; *at && (quote || !strchr(blanks, *at)); ++at) {
+    bool delimits = quote ? *at == quote : *at == '\'' || *at == '"';
+    bool escapes = *at == '\\' && quote != '\'';
+    if (delimits) {
+      quote = quote ? 0 : *at;
+      opened = reader->line;
+    } else if (escapes && !at[1] && !quote) {
+      return result_fail(error, RESULT_BAD, "%s: line %d: ends in a backslash", reader->path,
+                         reader->line);
+    } else if (escapes && at[1] == '\n') {
+      ++at, ++reader->line;
     } else {
-      result = append(word, c, error);
+      if (escapes && at[1] && (!quote || strchr("\"\\$`", at[1]))) ++at;
+      if (*at == '\n') ++reader->line;
+      *to++ = *at;
     }
   }
-  if (result == RESULT_OK && quote && !ferror(reader->file))
+  if (quote)
     return result_fail(error, RESULT_BAD, "%s: line %d: this %s quote is never closed",
-                       reader->path, reader->opened, quote == '"' ? "double" : "single");
-  return result == RESULT_OK ? append(word, 0, error) : result;
+                       reader->path, opened, quote == '"' ? "double" : "single");
+  if (*at == '\n') ++reader->line;
+  reader->at = *at ? at + 1 : at;
+  *to = 0;
+  return RESULT_OK;
 }
 
 static enum result add_file(struct argument_words *arguments, const char *path,
-                            const struct reader *from, int depth, struct error *error);
+                            const char *named_in, int depth, struct error *error);
 
-static enum result add_words(struct argument_words *arguments, struct reader *reader, int depth,
+/* Adds the word that comes next, or the words of the file that it names. */
+static enum result add_word(struct argument_words *arguments, struct reader *reader,
+                            struct error *error) {
+  struct error place;
+  bool names_file = *reader->at == '@';
+  const char *word = reader->at += names_file;
+  result_fail(&place, RESULT_BAD, "%s: line %d: ", reader->path, reader->line);
+  enum result result = unquote(reader, error);
+  if (result != RESULT_OK) return result;
+  return names_file ? add_file(arguments, word, place.text, reader->depth + 1, error)
+                    : add(arguments, strdup(word), error);
+}
+
+static enum result add_words(struct argument_words *arguments, struct reader *reader,
                              struct error *error) {
   enum result result = RESULT_OK;
-  for (int c = next(reader); result == RESULT_OK && c != EOF; c = next(reader)) {
-    if (is_blank(c)) continue;
-    if (c == '\\' && peek(reader) == '\n') {
-      next(reader);
-      continue;
+  while (result == RESULT_OK && *reader->at) {
+    bool continued = !strncmp(reader->at, "\\\n", 2);
+    if (*reader->at == '#') {
+      reader->at += strcspn(reader->at, "\n");
+    } else if (continued || strchr(blanks, *reader->at)) {
+      reader->at += continued;
+      if (*reader->at++ == '\n') ++reader->line;
+    } else {
+      result = add_word(arguments, reader, error);
     }
-    if (c == '#') {
-      while (c != '\n' && c != EOF) c = next(reader);
-      continue;
-    }
-    struct word word = {0};
-    const struct reader here = *reader; /* messages tell where the word starts */
-    bool file = c == '@';
-    result = read_word(reader, file ? next(reader) : c, &word, error);
-    if (result == RESULT_OK && file)
-      result = add_file(arguments, word.text, &here, depth + 1, error);
-    else if (result == RESULT_OK)
-      result = add(arguments, strdup(word.text), error);
-    free(word.text);
   }
-  if (result == RESULT_OK && ferror(reader->file))
-    result = result_fail(error, RESULT_IO, "%s: line %d: %m", reader->path, reader->line);
   return result;
 }
 
-/* `from` is the file that names this one; NULL for the command line. */
+/* The text of a file, with LF for CR LF; to be freed even after a failure. */
+static enum result read_text(const char *path, const char *named_in, char **text,
+                             struct error *error) {
+  size_t room = 0;
+  FILE *file = fopen(path, "re");
+  ssize_t length = file ? getdelim(text, &room, 0, file) : -1; /* up to a zero byte */
+  int why = errno;
+  bool empty = length < 0 && file && feof(file) && *text, broken = file && ferror(file);
+  if (file) fclose(file);
+  if (empty) **text = 0;
+  if ((length < 0 && !empty) || broken)
+    return why == ENOMEM
+               ? result_no_memory(error)
+               : result_fail(error, RESULT_IO, "%s@%s: %s", named_in, path, strerror(why));
+  int line = 1;
+  char *to = *text;
+  for (const char *from = *text; *from; ++from) {
+    if (from[0] == '\r' && from[1] == '\n') continue;
+    if (*from == '\n') ++line;
+    *to++ = *from;
+  }
+  bool zero = length > 0 && !(*text)[length - 1];
+  *to = 0;
+  return zero ? result_fail(error, RESULT_BAD, "%s: line %d: has a zero byte; it should be text",
+                            path, line)
+              : RESULT_OK;
+}
+
+/* `named_in` tells where, for messages; "" for the command line. */
 static enum result add_file(struct argument_words *arguments, const char *path,
-                            const struct reader *from, int depth, struct error *error) {
-  struct error where = {{0}};
-  if (from) result_fail(&where, RESULT_BAD, "%s: line %d: ", from->path, from->line);
+                            const char *named_in, int depth, struct error *error) {
+  char *text = NULL;
   if (!*path)
-    return result_fail(error, RESULT_BAD, "%s@: a file's name must follow, as in @FILE",
-                       where.text);
+    return result_fail(error, RESULT_BAD, "%s@: a file's name must follow, as in @FILE", named_in);
   if (depth > MAX_DEPTH)
-    return result_fail(error, RESULT_BAD, "%s@%s: files name files more than %d deep", where.text,
+    return result_fail(error, RESULT_BAD, "%s@%s: files name files more than %d deep", named_in,
                        path, MAX_DEPTH);
-  struct reader reader = {.path = path, .file = fopen(path, "re"), .line = 1};
-  if (!reader.file && errno == ENOMEM) return no_memory(error);
-  if (!reader.file)
-    return result_fail(error, RESULT_IO, "%s@%s: %s", where.text, path, strerror(errno));
-  enum result result = add_words(arguments, &reader, depth, error);
-  fclose(reader.file);
+  enum result result = read_text(path, named_in, &text, error);
+  struct reader reader = {.path = path, .depth = depth, .at = text, .line = 1};
+  if (result == RESULT_OK) result = add_words(arguments, &reader, error);
+  free(text);
   return result;
 }
 
 enum result arguments_expand(int argc, char **argv, struct argument_words *arguments,
                              struct error *error) {
   enum result result = RESULT_OK;
-  for (int k = 0; result == RESULT_OK && k < argc; ++k) {
-    if (k > 0 && argv[k][0] == '@')
-      result = add_file(arguments, argv[k] + 1, NULL, 1, error);
-    else
-      result = add(arguments, strdup(argv[k]), error);
-  }
+  for (int k = 0; result == RESULT_OK && k < argc; ++k)
+    result = k > 0 && argv[k][0] == '@' ? add_file(arguments, argv[k] + 1, "", 1, error)
+                                        : add(arguments, strdup(argv[k]), error);
   return result;
 }
 

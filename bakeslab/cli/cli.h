@@ -33,7 +33,7 @@ struct cli_program {
 
 /* Expands @FILE arguments (arguments.h), then runs the command that argv[1] names,
  * or answers --help, --version, help and help COMMAND. Returns the exit status. A stdout
- * that cannot be written makes it 1 in any case. */
+ * that cannot be written is a failure. */
 int cli_main(const struct cli_program *program, int argc, char **argv);
 
 /* "PROGRAM: MESSAGE" on stderr, as one line. */
@@ -42,8 +42,16 @@ void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)))
 /* The same, unless -q was given: "FILE: note: ...". */
 void cli_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Prints the error and returns CLI_FAILED. */
+/* Prints the error and returns the exit status of a failure: 1, or 2 for the comparing command. */
 int cli_fail(const struct error *error);
+
+/* Flushes stdout and says whether all that was printed got there: a full disk
+ * or a closed pipe is an error. Returns an exit status. */
+int cli_close_stdout(void);
+
+/* The end of a command: prints the error of a failure and closes stdout. Returns the exit status.
+ */
+int cli_end(enum result result, const struct error *error);
 
 /* Parses "NxM" (or "N" for NxN), both at least 1 and at most 65536. */
 bool cli_parse_size(const char *text, int size[2]);
@@ -65,19 +73,8 @@ bool cli_quiet(void);
 /* The command line that is running, quoted for a shell, with the program's name in front
  * and @FILE arguments expanded; outputs record it. Lives as long as the program. */
 const char *cli_command_line(void);
-/* Sets that and the name in messages; false without memory. cli_main calls it; argv[0] is not
- * looked at. */
-bool cli_set_command_line(const char *program, int argc, char **argv);
 
 /* A word, quoted for a shell where it must be; to be freed. NULL without memory. */
 char *cli_quote(const char *word);
-
-/* Flushes stdout and says whether all that was printed got there: a full disk
- * or a closed pipe is an error. Returns an exit status. */
-int cli_close_stdout(void);
-
-/* For atexit: does the same for those who did not (argp's --help), and makes
- * the exit status 1 where it fails. */
-void cli_check_stdout_at_exit(void);
 
 #endif

@@ -199,6 +199,5 @@ int cmd_convert(int argc, char **argv) {
   struct options options = {0};
   struct error error = {{0}};
   cli_parse(&argp, argc, argv, &options);
-  int status = run(&options, &error) == RESULT_OK ? CLI_OK : cli_fail(&error);
-  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+  return cli_end(run(&options, &error), &error);
 }

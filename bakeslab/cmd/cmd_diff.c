@@ -1,13 +1,14 @@
 /* cmd_diff.c - bakeslab diff: compares the samples and the frames of two
- * slabs. Exit status 0: same within the tolerance, 1: they differ, 2: trouble. */
+ * slabs. Exit status 0: same within the tolerance, 1: they differ, 2: failed. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
 
-enum { SAME = 0, DIFFER = 1, TROUBLE = 2 };
+enum { DIFFER = 1 };
 
 struct options {
   const char *paths[2];
@@ -56,8 +57,9 @@ static const char *different_frame(const struct slab *a, const struct slab *b) {
   return NULL;
 }
 
-/* Prints the page's figures and says whether the samples differ. */
-static int compare_samples(int page, const struct slab *a, const struct slab *b, double tolerance) {
+/* Prints what the samples of two pages differ by. */
+static enum result compare_samples(int page, const struct slab *a, const struct slab *b,
+                                   double tolerance, bool *differ, struct error *error) {
   size_t count = 3 * slab_sample_count(a), worst = 0;
   double peak = 0, largest = 0, squares = 0, flux_a[3], flux_b[3];
   for (size_t k = 0; k < count; ++k) {
@@ -72,45 +74,40 @@ static int compare_samples(int page, const struct slab *a, const struct slab *b,
   double rmse = sqrt(squares / (double)count), scale = peak > 0 ? peak : 1;
   int at[SLAB_AXES];
   slab_locate(a, worst, at);
-  if (slab_flux_metric(a, flux_a) || slab_flux_metric(b, flux_b)) {
-    cli_complain("out of memory");
-    return TROUBLE;
-  }
+  if (slab_flux_metric(a, flux_a) != RESULT_OK || slab_flux_metric(b, flux_b) != RESULT_OK)
+    return result_no_memory(error);
   printf("page %d: rmse %.6g (%.3g of the peak %.6g), largest %.6g (%.3g of the peak) at sample "
          "(%d, %d, %d, %d)\n",
          page + 1, rmse, rmse / scale, peak, largest, largest / scale, at[SLAB_U], at[SLAB_V],
          at[SLAB_S], at[SLAB_T]);
   printf("page %d: flux %.6g %.6g %.6g and %.6g %.6g %.6g\n", page + 1, flux_a[0], flux_a[1],
          flux_a[2], flux_b[0], flux_b[1], flux_b[2]);
-  return largest > tolerance * peak ? DIFFER : SAME;
+  if (largest > tolerance * peak) *differ = true;
+  return RESULT_OK;
 }
 
-static int compare(const struct options *options) {
+static enum result compare(const struct options *options, bool *differ, struct error *error) {
   struct slab *slabs[2] = {NULL, NULL};
-  int count[2] = {0, 0}, status = TROUBLE;
-  struct error error = {{0}};
-  for (int k = 0; k < 2; ++k)
-    if (slab_file_load_all(options->paths[k], &slabs[k], &count[k], &error) != RESULT_OK) {
-      cli_fail(&error);
-      goto out;
-    }
-  status = SAME;
-  if (count[0] != count[1]) {
+  int count[2] = {0, 0};
+  enum result result = RESULT_OK;
+  for (int k = 0; k < 2 && result == RESULT_OK; ++k)
+    result = slab_file_load_all(options->paths[k], &slabs[k], &count[k], error);
+  if (result == RESULT_OK && count[0] != count[1]) {
     printf("pages: %d and %d\n", count[0], count[1]);
-    status = DIFFER;
-    goto out;
+    *differ = true;
   }
-  for (int page = 0; page < count[0]; ++page) {
-    const char *what = different_frame(&slabs[0][page], &slabs[1][page]);
-    if (what) printf("page %d: \"%s\" differs\n", page + 1, what);
-    int found =
-        what ? DIFFER : compare_samples(page, &slabs[0][page], &slabs[1][page], options->tolerance);
-    if (found > status) status = found;
-    if (found == TROUBLE) break;
+  for (int page = 0; page < count[0] && count[0] == count[1] && result == RESULT_OK; ++page) {
+    const struct slab *a = &slabs[0][page], *b = &slabs[1][page];
+    const char *what = different_frame(a, b);
+    if (what) {
+      printf("page %d: \"%s\" differs\n", page + 1, what);
+      *differ = true;
+    } else {
+      result = compare_samples(page, a, b, options->tolerance, differ, error);
+    }
   }
-out:
   for (int k = 0; k < 2; ++k) slab_file_free_all(slabs[k], count[k]);
-  return status;
+  return result;
 }
 
 int cmd_diff(int argc, char **argv) {
@@ -134,7 +131,9 @@ int cmd_diff(int argc, char **argv) {
              "  bakeslab diff before.tif after.tif\n"
              "  bakeslab diff --tolerance 0.022 float.exr logluv.tif"};
   struct options options = {0};
+  struct error error = {{0}};
+  bool differ = false;
   cli_parse(&argp, argc, argv, &options);
-  int status = compare(&options);
-  return cli_close_stdout() == CLI_OK ? status : TROUBLE;
+  int status = cli_end(compare(&options, &differ, &error), &error);
+  return status == CLI_OK && differ ? DIFFER : status;
 }

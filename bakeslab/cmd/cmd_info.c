@@ -214,6 +214,5 @@ int cmd_info(int argc, char **argv) {
     result =
         print_page(options.path, json_array_get(pages, k), (int)json_array_size(pages), &error);
   json_decref(pages);
-  int status = result == RESULT_OK ? CLI_OK : cli_fail(&error);
-  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+  return cli_end(result, &error);
 }

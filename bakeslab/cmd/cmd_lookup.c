@@ -192,6 +192,5 @@ int cmd_lookup(int argc, char **argv) {
     cli_complain("-: the rays come from stdin, so the slab must be a file");
     return CLI_USAGE;
   }
-  int status = run(&options, &error) == RESULT_OK ? CLI_OK : cli_fail(&error);
-  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+  return cli_end(run(&options, &error), &error);
 }

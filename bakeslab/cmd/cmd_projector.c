@@ -215,6 +215,5 @@ int cmd_projector(int argc, char **argv) {
       .projector = {.uv = {8, 8}, .metres_per_unit = 1, .unit = "relative"}};
   struct error error = {{0}};
   cli_parse(&argp, argc, argv, &arguments);
-  int status = run(&arguments, &error) == RESULT_OK ? CLI_OK : cli_fail(&error);
-  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+  return cli_end(run(&arguments, &error), &error);
 }

@@ -80,7 +80,7 @@ END
   run --separate-stderr "$BAKESLAB" info @
   refused 2 "@: a file's name must follow"
   run --separate-stderr "$BAKESLAB" info @.
-  refused 2 ".: line 1: Is a directory"
+  refused 2 "@.: Is a directory"
   printf '# one\na.tif @none\n' >b
   run --separate-stderr "$RENDERSLAB" @b
   [ "$status" -eq 2 ]
