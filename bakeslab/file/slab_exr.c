@@ -63,20 +63,17 @@ static int64_t query_size(exr_const_context_t context, void *data) {
   return fstat(exr->fd, &status) == 0 ? (int64_t)status.st_size : -1;
 }
 
-static enum result fail(struct slab_exr *exr, int part, exr_result_t code, struct error *error) {
-  enum result result = code == EXR_ERR_OUT_OF_MEMORY ? RESULT_MEMORY : RESULT_BAD;
-  const char *why = *exr->why ? exr->why : exr_get_default_error_message(code);
-  if (part < 0)
-    return result_fail(error, result, "%s: not a readable EXR file, or truncated: %s", exr->path,
-                       why);
-  return result_fail(error, result, "%s: page %d: damaged or truncated: %s", exr->path, part + 1,
-                     why);
+/* What the library found wrong with a part. */
+static enum result fail(const struct slab_exr *exr, exr_result_t code, struct error *error) {
+  return result_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? RESULT_MEMORY : RESULT_BAD,
+                     "damaged or truncated: %s",
+                     *exr->why ? exr->why : exr_get_default_error_message(code));
 }
 
 static enum result check_channels(struct slab_exr *exr, int part, struct error *error) {
   const exr_attr_chlist_t *channels = NULL;
   exr_result_t code = exr_get_channels(exr->context, part, &channels);
-  if (code != EXR_ERR_SUCCESS) return fail(exr, part, code, error);
+  if (code != EXR_ERR_SUCCESS) return fail(exr, code, error);
   exr->parts[part].raster.precision = SLAB_PRECISION_HALF;
   for (const char *name = "RGB"; *name; ++name) {
     const exr_attr_chlist_entry_t *found = NULL;
@@ -84,12 +81,9 @@ static enum result check_channels(struct slab_exr *exr, int part, struct error *
       const char *candidate = channels->entries[k].name.str;
       if (candidate[0] == *name && !candidate[1]) found = &channels->entries[k];
     }
-    if (!found)
-      return result_fail(error, RESULT_BAD, "%s: page %d: has no channel %c", exr->path, part + 1,
-                         *name);
+    if (!found) return result_fail(error, RESULT_BAD, "has no channel %c", *name);
     if (found->x_sampling != 1 || found->y_sampling != 1 || found->pixel_type == EXR_PIXEL_UINT)
-      return result_fail(error, RESULT_BAD, "%s: page %d: channel %c is %s, must be half or float",
-                         exr->path, part + 1, *name,
+      return result_fail(error, RESULT_BAD, "channel %c is %s, must be half or float", *name,
                          found->pixel_type == EXR_PIXEL_UINT ? "integer" : "subsampled");
     if (found->pixel_type == EXR_PIXEL_FLOAT)
       exr->parts[part].raster.precision = SLAB_PRECISION_FLOAT;
@@ -101,25 +95,24 @@ static enum result find_blocks(struct slab_exr *exr, int part, struct error *err
   struct part *p = &exr->parts[part];
   exr_storage_t storage;
   exr_result_t code = exr_get_storage(exr->context, part, &storage);
-  if (code != EXR_ERR_SUCCESS) return fail(exr, part, code, error);
+  if (code != EXR_ERR_SUCCESS) return fail(exr, code, error);
   if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
-    return result_fail(error, RESULT_BAD, "%s: page %d: is a deep image", exr->path, part + 1);
+    return result_fail(error, RESULT_BAD, "is a deep image");
   code = exr_get_data_window(exr->context, part, &p->window);
-  if (code != EXR_ERR_SUCCESS) return fail(exr, part, code, error);
+  if (code != EXR_ERR_SUCCESS) return fail(exr, code, error);
   int64_t width = (int64_t)p->window.max.x - p->window.min.x + 1;
   int64_t height = (int64_t)p->window.max.y - p->window.min.y + 1;
   if (width < 1 || height < 1 || width > INT_MAX / 12 || height > INT_MAX)
-    return result_fail(error, RESULT_BAD, "%s: page %d: has an impossible size", exr->path,
-                       part + 1);
+    return result_fail(error, RESULT_BAD, "has an impossible size");
   p->raster.width = (int)width;
   p->raster.height = (int)height;
   p->tiled = storage == EXR_STORAGE_TILED;
   int32_t block_width = p->raster.width, block_height = 0;
   code = p->tiled ? exr_get_tile_sizes(exr->context, part, 0, 0, &block_width, &block_height)
                   : exr_get_scanlines_per_chunk(exr->context, part, &block_height);
-  if (code != EXR_ERR_SUCCESS) return fail(exr, part, code, error);
+  if (code != EXR_ERR_SUCCESS) return fail(exr, code, error);
   if (block_width < 1 || block_height < 1)
-    return result_fail(error, RESULT_BAD, "%s: page %d: has tiles of no size", exr->path, part + 1);
+    return result_fail(error, RESULT_BAD, "has tiles of no size");
   p->raster.block_width = block_width < p->raster.width ? block_width : p->raster.width;
   p->raster.block_height = block_height < p->raster.height ? block_height : p->raster.height;
   return RESULT_OK;
@@ -143,13 +136,13 @@ static enum result read_part_header(struct slab_exr *exr, int part, const char *
   exr_chunk_info_t chunk;
   exr_result_t code =
       chunk_info(exr, part, slab_raster_columns(raster) - 1, slab_raster_rows(raster) - 1, &chunk);
-  if (code != EXR_ERR_SUCCESS) return fail(exr, part, code, error);
+  if (code != EXR_ERR_SUCCESS) return fail(exr, code, error);
   const exr_attribute_t *attribute = NULL;
   if (text_name &&
       exr_get_attribute_by_name(exr->context, part, text_name, &attribute) == EXR_ERR_SUCCESS &&
       attribute->type == EXR_ATTR_STRING) {
     raster->text = strndup(attribute->string->str, (size_t)attribute->string->length);
-    if (!raster->text) return result_fail(error, RESULT_MEMORY, "%s: out of memory", exr->path);
+    if (!raster->text) return result_no_memory(error);
   }
   return RESULT_OK;
 }
@@ -175,7 +168,9 @@ enum result slab_exr_open(int fd, const char *path, const char *text_name, struc
   code = exr_start_read(&exr->context, path, &setup);
   if (code == EXR_ERR_SUCCESS) code = exr_get_count(exr->context, &exr->count);
   if (code != EXR_ERR_SUCCESS) {
-    result = fail(exr, -1, code, error);
+    result = result_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? RESULT_MEMORY : RESULT_BAD,
+                         "%s: not a readable EXR file, or truncated: %s", path,
+                         *exr->why ? exr->why : exr_get_default_error_message(code));
     goto out;
   }
   exr->parts = calloc((size_t)exr->count, sizeof *exr->parts);
@@ -187,7 +182,8 @@ enum result slab_exr_open(int fd, const char *path, const char *text_name, struc
   /* A picture is the first part; what others hold is nobody's business. */
   if (!text_name && exr->count > 1) exr->count = 1;
   for (int part = 0; part < exr->count && result == RESULT_OK; ++part)
-    result = read_part_header(exr, part, text_name, error);
+    result = result_at(read_part_header(exr, part, text_name, error), error, "%s: page %d", path,
+                       part + 1);
 out:
   if (result == RESULT_OK)
     *out = exr;
@@ -234,38 +230,29 @@ enum result slab_exr_read_block(struct slab_exr *exr, int part, int column, int 
   exr_chunk_info_t chunk;
   *exr->why = 0;
   exr_result_t code = chunk_info(exr, part, column, row, &chunk);
-  if (code != EXR_ERR_SUCCESS) return fail(exr, part, code, error);
-  code = exr_decoding_initialize(exr->context, part, &chunk, &pipeline);
   if (code == EXR_ERR_SUCCESS) {
-    aim_channels(&pipeline, exr->parts[part].raster.block_width, rgb);
-    code = exr_decoding_choose_default_routines(exr->context, part, &pipeline);
+    code = exr_decoding_initialize(exr->context, part, &chunk, &pipeline);
+    if (code == EXR_ERR_SUCCESS) {
+      aim_channels(&pipeline, exr->parts[part].raster.block_width, rgb);
+      code = exr_decoding_choose_default_routines(exr->context, part, &pipeline);
+    }
+    if (code == EXR_ERR_SUCCESS) code = exr_decoding_run(exr->context, part, &pipeline);
+    exr_decoding_destroy(exr->context, &pipeline);
   }
-  if (code == EXR_ERR_SUCCESS) code = exr_decoding_run(exr->context, part, &pipeline);
-  exr_decoding_destroy(exr->context, &pipeline);
-  return code == EXR_ERR_SUCCESS ? RESULT_OK : fail(exr, part, code, error);
-}
-
-/* Copies the part of a block that lies inside the picture. */
-static void place_block(const struct slab_raster *raster, int column, int row, const float *block,
-                        float *rgb) {
-  int x0 = column * raster->block_width, y0 = row * raster->block_height;
-  int width = raster->width - x0 < raster->block_width ? raster->width - x0 : raster->block_width;
-  for (int y = y0; y < raster->height && y < y0 + raster->block_height; ++y)
-    memcpy(rgb + 3 * ((size_t)y * (size_t)raster->width + (size_t)x0),
-           block + 3 * (size_t)(y - y0) * (size_t)raster->block_width,
-           3 * sizeof(float) * (size_t)width);
+  if (code == EXR_ERR_SUCCESS) return RESULT_OK;
+  return result_at(fail(exr, code, error), error, "%s: page %d", exr->path, part + 1);
 }
 
 enum result slab_exr_read(const char *path, struct picture *picture, struct error *error) {
-  enum result result;
   struct slab_exr *exr = NULL;
   float *block = NULL, *rgb = NULL;
   memset(picture, 0, sizeof *picture);
   int fd = open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
-  result = slab_exr_open(fd, path, NULL, &exr, error);
+  enum result result = slab_exr_open(fd, path, NULL, &exr, error);
   if (result != RESULT_OK) return result;
   const struct slab_raster *raster = slab_exr_part(exr, 0);
+  const struct slab_area all = {0, 0, raster->width, raster->height};
   if (!slab_raster_plausible((double)raster->width * raster->height,
                              (double)query_size(NULL, exr))) {
     result = result_fail(error, RESULT_BAD, "%s: claims more pixels than its bytes can hold", path);
@@ -282,11 +269,9 @@ enum result slab_exr_read(const char *path, struct picture *picture, struct erro
     for (int column = 0; column < slab_raster_columns(raster); ++column) {
       result = slab_exr_read_block(exr, 0, column, row, block, error);
       if (result != RESULT_OK) goto out;
-      place_block(raster, column, row, block, rgb);
+      slab_raster_copy(raster, column, row, block, &all, rgb);
     }
-  picture->width = raster->width;
-  picture->height = raster->height;
-  picture->rgb = rgb;
+  *picture = (struct picture){.width = raster->width, .height = raster->height, .rgb = rgb};
   rgb = NULL;
 out:
   free(rgb);

@@ -100,10 +100,8 @@ static enum result parse_page(struct slab_file *file, int page, struct error *er
     return result_fail(error, RESULT_BAD,
                        "%s: page %d: has no JSON description (%s), so no light slab", file->path,
                        page + 1, file->tiff ? "ImageDescription" : "attribute \"lightslab\"");
-  struct error why;
-  enum result result = slab_json_parse(raster->text, slab, raster->white, &why);
-  if (result != RESULT_OK)
-    return result_fail(error, result, "%s: page %d: %s", file->path, page + 1, why.text);
+  enum result result = slab_json_parse(raster->text, slab, raster->white, error);
+  if (result != RESULT_OK) return result_at(result, error, "%s: page %d", file->path, page + 1);
   if (raster->width == slab_width(slab) && raster->height == slab_height(slab)) return RESULT_OK;
   return result_fail(error, RESULT_BAD,
                      "%s: page %d: \"samples\" %d x %d x %d x %d need %d x %d pixels, there are "
@@ -182,11 +180,10 @@ static enum result decode_block(struct slab_file *file, int page, int column, in
                     : slab_exr_read_block(file->exr, page, column, row, rgb, error);
 }
 
-static float *new_block(const struct slab_file *file, int page, struct error *error) {
-  const struct slab_raster *raster = raster_of(file, page);
-  float *rgb = calloc(slab_raster_block_pixels(raster), 3 * sizeof *rgb);
-  if (!rgb) result_fail(error, RESULT_MEMORY, "%s: out of memory", file->path);
-  return rgb;
+static enum result new_block(const struct slab_file *file, int page, float **rgb,
+                             struct error *error) {
+  *rgb = calloc(slab_raster_block_pixels(raster_of(file, page)), 3 * sizeof **rgb);
+  return *rgb ? RESULT_OK : result_at(result_no_memory(error), error, "%s", file->path);
 }
 
 static enum result cached_block(struct slab_file *file, int page, int column, int row,
@@ -199,9 +196,8 @@ static enum result cached_block(struct slab_file *file, int page, int column, in
     }
   }
   struct block fresh = {.page = page, .column = column, .row = row};
-  fresh.rgb = new_block(file, page, error);
-  if (!fresh.rgb) return RESULT_MEMORY;
-  enum result result = decode_block(file, page, column, row, fresh.rgb, error);
+  enum result result = new_block(file, page, &fresh.rgb, error);
+  if (result == RESULT_OK) result = decode_block(file, page, column, row, fresh.rgb, error);
   if (result != RESULT_OK) {
     free(fresh.rgb);
     return result;
@@ -213,27 +209,9 @@ static enum result cached_block(struct slab_file *file, int page, int column, in
   return RESULT_OK;
 }
 
-/* A rectangle of the raster, in pixels. */
-struct area {
-  int x, y, width, height;
-};
-
-/* Copies what a block and an area share into the area's own pixels. */
-static void copy_shared(const struct slab_raster *raster, int column, int row, const float *block,
-                        const struct area *area, float *rgb) {
-  int x0 = column * raster->block_width, y0 = row * raster->block_height;
-  int left = area->x > x0 ? area->x : x0, top = area->y > y0 ? area->y : y0;
-  int right = area->x + area->width, bottom = area->y + area->height;
-  if (right > x0 + raster->block_width) right = x0 + raster->block_width;
-  if (bottom > y0 + raster->block_height) bottom = y0 + raster->block_height;
-  for (int y = top; y < bottom; ++y)
-    memcpy(rgb + 3 * ((size_t)(y - area->y) * (size_t)area->width + (size_t)(left - area->x)),
-           block + 3 * ((size_t)(y - y0) * (size_t)raster->block_width + (size_t)(left - x0)),
-           3 * sizeof(float) * (size_t)(right - left));
-}
-
-static enum result check_finite(const struct slab_file *file, int page, const struct area *area,
-                                const float *rgb, struct error *error) {
+static enum result check_finite(const struct slab_file *file, int page,
+                                const struct slab_area *area, const float *rgb,
+                                struct error *error) {
   size_t count = 3 * (size_t)area->width * (size_t)area->height;
   size_t k = 0;
   while (k < count && isfinite(rgb[k])) ++k;
@@ -251,8 +229,8 @@ enum result slab_file_read_view(struct slab_file *file, int page, int i, int j, 
                                 struct error *error) {
   const struct slab_raster *raster = raster_of(file, page);
   const struct slab *slab = &file->pages[page];
-  struct area view = {i * slab->samples[SLAB_S], j * slab->samples[SLAB_T], slab->samples[SLAB_S],
-                      slab->samples[SLAB_T]};
+  struct slab_area view = {i * slab->samples[SLAB_S], j * slab->samples[SLAB_T],
+                           slab->samples[SLAB_S], slab->samples[SLAB_T]};
   int last_row = (view.y + view.height - 1) / raster->block_height;
   int last_column = (view.x + view.width - 1) / raster->block_width;
   for (int row = view.y / raster->block_height; row <= last_row; ++row)
@@ -260,7 +238,7 @@ enum result slab_file_read_view(struct slab_file *file, int page, int i, int j, 
       const float *block;
       enum result result = cached_block(file, page, column, row, &block, error);
       if (result != RESULT_OK) return result;
-      copy_shared(raster, column, row, block, &view, rgb);
+      slab_raster_copy(raster, column, row, block, &view, rgb);
     }
   return check_finite(file, page, &view, rgb, error);
 }
@@ -268,26 +246,20 @@ enum result slab_file_read_view(struct slab_file *file, int page, int i, int j, 
 enum result slab_file_load(struct slab_file *file, int page, struct slab *out,
                            struct error *error) {
   const struct slab_raster *raster = raster_of(file, page);
+  const struct slab_area all = {0, 0, raster->width, raster->height};
   struct slab slab = {0};
-  struct error why;
-  struct area all = {0, 0, raster->width, raster->height};
   float *block = NULL;
-  enum result result = slab_copy_geometry(&file->pages[page], &slab, &why);
-  if (result == RESULT_OK) result = slab_alloc(&slab, &why);
-  if (result != RESULT_OK) {
-    result_fail(error, result, "%s: page %d: %s", file->path, page + 1, why.text);
-    goto out;
-  }
-  block = new_block(file, page, error);
-  if (!block) result = RESULT_MEMORY;
+  enum result result = slab_copy_geometry(&file->pages[page], &slab, error);
+  if (result == RESULT_OK) result = slab_alloc(&slab, error);
+  result_at(result, error, "%s: page %d", file->path, page + 1);
+  if (result == RESULT_OK) result = new_block(file, page, &block, error);
   /* By blocks rather than views, so that each is decoded once. */
   for (int row = 0; row < slab_raster_rows(raster) && result == RESULT_OK; ++row)
     for (int column = 0; column < slab_raster_columns(raster) && result == RESULT_OK; ++column) {
       result = decode_block(file, page, column, row, block, error);
-      if (result == RESULT_OK) copy_shared(raster, column, row, block, &all, slab.rgb);
+      if (result == RESULT_OK) slab_raster_copy(raster, column, row, block, &all, slab.rgb);
     }
   if (result == RESULT_OK) result = check_finite(file, page, &all, slab.rgb, error);
-out:
   free(block);
   if (result == RESULT_OK)
     *out = slab;

@@ -88,16 +88,14 @@ static enum result check_samples(const char *path, int page, const struct slab *
 static enum result describe(const char *path, int page, const struct slab *slab,
                             enum slab_precision precision, bool exr, struct slab_raster *raster,
                             struct error *error) {
-  struct error why;
-  enum result result = slab_check(slab, &why);
-  if (result == RESULT_OK && !slab->rgb) result = result_fail(&why, RESULT_BAD, "has no samples");
+  enum result result = slab_check(slab, error);
+  if (result == RESULT_OK && !slab->rgb) result = result_fail(error, RESULT_BAD, "has no samples");
   bool logluv = precision == SLAB_PRECISION_LOGLUV;
   if (result == RESULT_OK && logluv)
     slab_tiff_choose_white(slab->rgb, slab_sample_count(slab), raster->white);
   if (result == RESULT_OK)
-    result = slab_json_text(slab, logluv ? raster->white : NULL, &raster->text, &why);
-  if (result != RESULT_OK)
-    return result_fail(error, result, "%s: page %d: %s", path, page + 1, why.text);
+    result = slab_json_text(slab, logluv ? raster->white : NULL, &raster->text, error);
+  if (result != RESULT_OK) return result_at(result, error, "%s: page %d", path, page + 1);
   int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
   bool view_is_tile = ns % 16 == 0 && nt % 16 == 0 && !(exr && ns > LARGEST_EXR_VIEW / nt);
   raster->width = slab_width(slab);

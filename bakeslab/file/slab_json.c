@@ -139,10 +139,7 @@ enum result slab_json_parse(const char *text, struct slab *slab, double white[3]
   *slab = slab_default();
   enum result result = json_read(text, JSON_REJECT_DUPLICATES, &root, error);
   if (result == RESULT_OK) result = get_fields(root, slab, white ? white : ignored, error);
-  if (result == RESULT_OK) {
-    slab->json = strdup(text);
-    if (!slab->json) result = result_fail(error, RESULT_MEMORY, "out of memory");
-  }
+  if (result == RESULT_OK && !(slab->json = strdup(text))) result = result_no_memory(error);
   if (result != RESULT_OK) slab_free(slab);
   json_decref(root);
   return result;
@@ -167,11 +164,7 @@ static json_t *number(double value) {
 
 static json_t *numbers(const double *values, size_t count) {
   json_t *array = json_array();
-  for (size_t k = 0; array && k < count; ++k)
-    if (json_array_append_new(array, number(values[k])) != 0) {
-      json_decref(array);
-      array = NULL;
-    }
+  for (size_t k = 0; k < count; ++k) json_array_append_new(array, number(values[k]));
   return array;
 }
 
@@ -183,26 +176,17 @@ enum result slab_json_text(const struct slab *slab, const double white[3], char 
   enum result result = slab_check(slab, error);
   if (result == RESULT_OK) result = slab_json_root(slab, &root, error);
   if (result != RESULT_OK) return result;
-  json_t *samples = json_array();
-  int failed = !samples;
-  for (int axis = 0; axis < SLAB_AXES; ++axis)
-    failed |= json_array_append_new(samples, json_integer(slab->samples[axis])) != 0;
-  failed |= json_object_set_new(root, "format", json_string("light-slab")) != 0;
-  failed |= json_object_set_new(root, "version", json_integer(FORMAT_VERSION)) != 0;
-  failed |= json_object_set_new(root, "name", json_string(slab->name)) != 0;
-  failed |= json_object_set_new(root, "samples", samples) != 0;
-  failed |= json_object_set_new(root, "center", numbers(slab->center, 3)) != 0;
-  failed |= json_object_set_new(root, "u", numbers(slab->u, 3)) != 0;
-  failed |= json_object_set_new(root, "v", numbers(slab->v, 3)) != 0;
-  failed |= json_object_set_new(root, "normal", numbers(slab->normal, 3)) != 0;
-  failed |= json_object_set_new(root, "st_window", numbers(slab->st_window, 4)) != 0;
-  failed |=
-      json_object_set_new(root, "st_distance",
-                          isinf(slab->st_distance) ? json_null() : number(slab->st_distance)) != 0;
-  failed |= json_object_set_new(root, "metres_per_unit", number(slab->metres_per_unit)) != 0;
-  failed |= json_object_set_new(root, "radiance_unit", json_string(slab->radiance_unit)) != 0;
+  const int *n = slab->samples;
+  json_t *fields = json_pack(
+      "{s:s, s:i, s:s, s:[iiii], s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "format", "light-slab",
+      "version", FORMAT_VERSION, "name", slab->name, "samples", n[0], n[1], n[2], n[3], "center",
+      numbers(slab->center, 3), "u", numbers(slab->u, 3), "v", numbers(slab->v, 3), "normal",
+      numbers(slab->normal, 3), "st_window", numbers(slab->st_window, 4), "st_distance",
+      isinf(slab->st_distance) ? json_null() : number(slab->st_distance), "metres_per_unit",
+      number(slab->metres_per_unit), "radiance_unit", slab->radiance_unit);
+  bool failed = json_object_update(root, fields) != 0;
   if (white)
-    failed |= json_object_set_new(root, "logluv_white", numbers(white, 3)) != 0;
+    json_object_set_new(root, "logluv_white", numbers(white, 3));
   else
     json_object_del(root, "logluv_white");
   result = json_whole(mark, error);
@@ -210,6 +194,7 @@ enum result slab_json_text(const struct slab *slab, const double white[3], char 
     result = result_fail(error, RESULT_BAD,
                          "the description cannot be written as JSON (is the name UTF-8?)");
   if (result == RESULT_OK) result = json_text(root, mark, exactly, text, error);
+  json_decref(fields);
   json_decref(root);
   return result;
 }
@@ -234,11 +219,10 @@ static enum result set(struct slab *slab, const char *key, json_t *value, unsign
 enum result slab_json_set(struct slab *slab, const char *key, const char *value,
                           struct error *error) {
   json_t *parsed = NULL;
-  struct error why;
   unsigned long mark = json_mark();
   enum result result = RESULT_OK;
-  if (value) result = json_read(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &parsed, &why);
-  if (result != RESULT_OK) return result_fail(error, result, "\"%s\": %s", key, why.text);
+  if (value) result = json_read(value, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, &parsed, error);
+  if (result != RESULT_OK) return result_at(result, error, "\"%s\"", key);
   return set(slab, key, parsed, mark, error);
 }
 
@@ -259,14 +243,19 @@ enum result slab_json_sampling(const struct slab *slab, struct slab_sampling *sa
   return result;
 }
 
+/* A copy of the provenance to change. */
+static json_t *copy_provenance(const json_t *root) {
+  json_t *old = json_object_get(root, "provenance");
+  return json_is_object(old) ? json_copy(old) : json_object();
+}
+
 enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening how,
                                         struct error *error) {
   json_t *root = NULL;
   unsigned long mark = json_mark();
   enum result result = slab_json_root(slab, &root, error);
   if (result != RESULT_OK) return result;
-  json_t *old = json_object_get(root, "provenance");
-  json_t *provenance = json_is_object(old) ? json_incref(old) : json_object();
+  json_t *provenance = copy_provenance(root);
   json_object_set_new(provenance, "sharpened",
                       json_string(how == SLAB_SHARPEN_POSITIVE ? "st, not below zero" : "st"));
   result = set(slab, "provenance", provenance, mark, error);
@@ -274,17 +263,18 @@ enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening 
   return result;
 }
 
-/* The step of "history" that `provenance` tells of; what is known of its samples goes there. */
-static json_t *step_of(const json_t *provenance, json_t *fresh, bool changed) {
-  static const char *const of_samples[] = {"rays", "noise"};
-  json_t *step = json_object();
-  json_object_set(step, "command", json_object_get(provenance, "command"));
-  json_object_set(step, "tool", json_object_get(provenance, "tool"));
-  for (size_t k = 0; changed && k < sizeof of_samples / sizeof *of_samples; ++k) {
-    json_object_set(step, of_samples[k], json_object_get(provenance, of_samples[k]));
+/* The entry of "history" that tells how the slab was made before, by its provenance. Where the
+ * samples have changed, what is known of them moves there from the `fresh` one. */
+static json_t *history_entry(const json_t *provenance, json_t *fresh, bool changed) {
+  static const char *const kept[] = {"command", "tool"}, *const of_samples[] = {"rays", "noise"};
+  json_t *entry = json_object();
+  for (size_t k = 0; k < 2; ++k)
+    json_object_set(entry, kept[k], json_object_get(provenance, kept[k]));
+  for (size_t k = 0; changed && k < 2; ++k) {
+    json_object_set(entry, of_samples[k], json_object_get(provenance, of_samples[k]));
     json_object_del(fresh, of_samples[k]);
   }
-  return step;
+  return entry;
 }
 
 enum result slab_json_record(struct slab *slab, const char *command, const char *tool, bool changed,
@@ -293,12 +283,11 @@ enum result slab_json_record(struct slab *slab, const char *command, const char 
   unsigned long mark = json_mark();
   enum result result = slab_json_root(slab, &root, error);
   if (result != RESULT_OK) return result;
-  json_t *old = json_object_get(root, "provenance");
-  json_t *fresh = json_is_object(old) ? json_copy(old) : json_object();
+  json_t *old = json_object_get(root, "provenance"), *fresh = copy_provenance(root);
   json_t *before = json_object_get(old, "history");
   json_t *history = json_is_array(before) ? json_copy(before) : json_array();
   if (json_is_object(old))
-    json_array_append_new(history, step_of(old, fresh, changed));
+    json_array_append_new(history, history_entry(old, fresh, changed));
   else if (old)
     json_array_append(history, old);
   json_object_set_new(fresh, "command", json_any_string(command));

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "file/slab_precision.h"
 
@@ -40,6 +41,25 @@ static inline int slab_raster_columns(const struct slab_raster *raster) {
 static inline int slab_raster_rows(const struct slab_raster *raster) {
   if (raster->block_height < 1) return raster->height;
   return raster->height / raster->block_height + (raster->height % raster->block_height != 0);
+}
+
+/* A rectangle of the raster, in pixels. */
+struct slab_area {
+  int x, y, width, height;
+};
+
+/* Copies what a block and an area share to the area's own pixels. */
+static inline void slab_raster_copy(const struct slab_raster *raster, int column, int row,
+                                    const float *block, const struct slab_area *area, float *rgb) {
+  int x0 = column * raster->block_width, y0 = row * raster->block_height;
+  int left = area->x > x0 ? area->x : x0, top = area->y > y0 ? area->y : y0;
+  int right = area->x + area->width, bottom = area->y + area->height;
+  if (right > x0 + raster->block_width) right = x0 + raster->block_width;
+  if (bottom > y0 + raster->block_height) bottom = y0 + raster->block_height;
+  for (int y = top; y < bottom; ++y)
+    memcpy(rgb + 3 * ((size_t)(y - area->y) * (size_t)area->width + (size_t)(left - area->x)),
+           block + 3 * ((size_t)(y - y0) * (size_t)raster->block_width + (size_t)(left - x0)),
+           3 * sizeof(float) * (size_t)(right - left));
 }
 
 #endif

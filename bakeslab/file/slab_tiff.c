@@ -44,14 +44,13 @@ static int ignore(TIFF *tif, void *data, const char *module, const char *format,
   return 1;
 }
 
-static enum result refuse(const struct slab_tiff *tiff, int page, const char *why,
-                          struct error *error) {
-  return result_fail(error, RESULT_BAD, "%s: page %d: %s", tiff->path, page + 1, why);
+static enum result refuse(const char *why, struct error *error) {
+  return result_fail(error, RESULT_BAD, "%s", why);
 }
 
-static enum result damaged(const struct slab_tiff *tiff, int page, struct error *error) {
-  return result_fail(error, RESULT_BAD, "%s: page %d: damaged or truncated: %s", tiff->path,
-                     page + 1, *tiff->why ? tiff->why : "cannot be decoded");
+static enum result damaged(const struct slab_tiff *tiff, struct error *error) {
+  return result_fail(error, RESULT_BAD, "damaged or truncated: %s",
+                     *tiff->why ? tiff->why : "cannot be decoded");
 }
 
 static bool lossless(uint16_t compression) {
@@ -79,22 +78,20 @@ static enum result check_pixels(struct slab_tiff *tiff, int page, struct error *
   TIFFGetFieldDefaulted(tiff->tif, TIFFTAG_ORIENTATION, &orientation);
   TIFFGetField(tiff->tif, TIFFTAG_PHOTOMETRIC, &photometric);
   p->separate = planar == PLANARCONFIG_SEPARATE;
-  if (samples != 3) return refuse(tiff, page, "must have 3 samples a pixel", error);
-  if (orientation != ORIENTATION_TOPLEFT)
-    return refuse(tiff, page, "must start at the top left", error);
+  if (samples != 3) return refuse("must have 3 samples a pixel", error);
+  if (orientation != ORIENTATION_TOPLEFT) return refuse("must start at the top left", error);
   if (compression == COMPRESSION_SGILOG && photometric == PHOTOMETRIC_LOGLUV) {
-    if (p->separate) return refuse(tiff, page, "LogLuv must be in one plane", error);
+    if (p->separate) return refuse("LogLuv must be in one plane", error);
     p->raster.precision = SLAB_PRECISION_LOGLUV;
     return RESULT_OK;
   }
   TIFFGetFieldDefaulted(tiff->tif, TIFFTAG_BITSPERSAMPLE, &bits);
   TIFFGetFieldDefaulted(tiff->tif, TIFFTAG_SAMPLEFORMAT, &format);
   if (photometric != PHOTOMETRIC_RGB || format != SAMPLEFORMAT_IEEEFP || (bits != 16 && bits != 32))
-    return refuse(tiff, page, "must be LogLuv (SGILOG32) or RGB of 16 or 32 bit IEEE float", error);
+    return refuse("must be LogLuv (SGILOG32) or RGB of 16 or 32 bit IEEE float", error);
   if (!lossless(compression) || !TIFFIsCODECConfigured(compression))
-    return result_fail(error, RESULT_BAD,
-                       "%s: page %d: compression %d is not lossless or not known to libtiff",
-                       tiff->path, page + 1, compression);
+    return result_fail(error, RESULT_BAD, "compression %d is not lossless or not known to libtiff",
+                       compression);
   p->raster.precision = bits == 16 ? SLAB_PRECISION_HALF : SLAB_PRECISION_FLOAT;
   return RESULT_OK;
 }
@@ -105,7 +102,7 @@ static enum result find_blocks(struct slab_tiff *tiff, int page, struct error *e
   TIFFGetField(tiff->tif, TIFFTAG_IMAGEWIDTH, &width);
   TIFFGetField(tiff->tif, TIFFTAG_IMAGELENGTH, &height);
   if (width < 1 || height < 1 || width > INT_MAX / 16 || height > INT_MAX / 16)
-    return refuse(tiff, page, "has an impossible size", error);
+    return refuse("has an impossible size", error);
   p->tiled = TIFFIsTiled(tiff->tif);
   if (p->tiled) {
     TIFFGetField(tiff->tif, TIFFTAG_TILEWIDTH, &block_width);
@@ -118,7 +115,7 @@ static enum result find_blocks(struct slab_tiff *tiff, int page, struct error *e
   /* A small page in huge tiles would take more memory than the page says. */
   uint64_t most = (uint64_t)width * height > 1 << 24 ? (uint64_t)width * height : 1 << 24;
   if (block_width < 1 || block_height < 1 || (uint64_t)block_width * block_height > 2 * most)
-    return refuse(tiff, page, "has tiles of an impossible size", error);
+    return refuse("has tiles of an impossible size", error);
   p->raster.width = (int)width;
   p->raster.height = (int)height;
   p->raster.block_width = (int)block_width;
@@ -134,7 +131,7 @@ static enum result check_extent(struct slab_tiff *tiff, int page, struct error *
     uint64_t offset = TIFFGetStrileOffset(tiff->tif, block);
     uint64_t bytes = TIFFGetStrileByteCount(tiff->tif, block);
     if (bytes == 0 || offset > tiff->bytes || bytes > tiff->bytes - offset)
-      return refuse(tiff, page, "is truncated: pixels lie beyond the end of the file", error);
+      return refuse("is truncated: pixels lie beyond the end of the file", error);
   }
   return RESULT_OK;
 }
@@ -148,7 +145,7 @@ static enum result read_page_header(struct slab_tiff *tiff, int page, struct err
   const char *text = NULL;
   if (TIFFGetField(tiff->tif, TIFFTAG_IMAGEDESCRIPTION, &text) && text) {
     raster->text = strdup(text);
-    if (!raster->text) return result_fail(error, RESULT_MEMORY, "%s: out of memory", tiff->path);
+    if (!raster->text) return result_no_memory(error);
   }
   for (int c = 0; c < 3; ++c) raster->white[c] = 1;
   return RESULT_OK;
@@ -192,10 +189,9 @@ enum result slab_tiff_open(int fd, const char *path, struct slab_tiff **out, str
   tiff->current = -1;
   for (int page = 0; page < count && result == RESULT_OK; ++page) {
     *tiff->why = 0;
-    if (page > 0 && !TIFFReadDirectory(tiff->tif))
-      result = damaged(tiff, page, error);
-    else
-      result = read_page_header(tiff, page, error);
+    bool there = page == 0 || TIFFReadDirectory(tiff->tif);
+    result = there ? read_page_header(tiff, page, error) : damaged(tiff, error);
+    result_at(result, error, "%s: page %d", path, page + 1);
     tiff->pages[page].offset = TIFFCurrentDirOffset(tiff->tif);
   }
 out:
@@ -276,26 +272,32 @@ static void decode_xyz(const struct slab_raster *raster, float *pixels, size_t c
   }
 }
 
-enum result slab_tiff_read_block(struct slab_tiff *tiff, int page, int column, int row, float *rgb,
-                                 struct error *error) {
+static enum result read_block(struct slab_tiff *tiff, int page, int column, int row, float *rgb,
+                              struct error *error) {
   const struct page *p = &tiff->pages[page];
   size_t pixels = slab_raster_block_pixels(&p->raster);
   size_t element = p->raster.precision == SLAB_PRECISION_HALF ? sizeof(uint16_t) : sizeof(float);
-  int planes = p->separate ? 3 : 1, step = p->separate ? 3 : 1;
+  int planes = p->separate ? 3 : 1; /* and the step between a plane's values in a block */
   size_t values = p->separate ? pixels : 3 * pixels;
   *tiff->why = 0;
-  if (!stand_on(tiff, page)) return damaged(tiff, page, error);
+  if (!stand_on(tiff, page)) return damaged(tiff, error);
   void *raw = calloc(values, element);
-  if (!raw) return result_fail(error, RESULT_MEMORY, "%s: out of memory", tiff->path);
+  if (!raw) return result_no_memory(error);
   enum result result = RESULT_OK;
   for (int plane = 0; plane < planes && result == RESULT_OK; ++plane) {
     if (read_plane(tiff, p, column, row, plane, raw, (tmsize_t)(values * element)))
-      convert(p->raster.precision, raw, values, step, rgb + plane);
+      convert(p->raster.precision, raw, values, planes, rgb + plane);
     else
-      result = damaged(tiff, page, error);
+      result = damaged(tiff, error);
   }
   free(raw);
   if (result == RESULT_OK && p->raster.precision == SLAB_PRECISION_LOGLUV)
     decode_xyz(&p->raster, rgb, pixels);
   return result;
+}
+
+enum result slab_tiff_read_block(struct slab_tiff *tiff, int page, int column, int row, float *rgb,
+                                 struct error *error) {
+  return result_at(read_block(tiff, page, column, row, rgb, error), error, "%s: page %d",
+                   tiff->path, page + 1);
 }
