@@ -1,6 +1,6 @@
-/* cmd_check.c - bakeslab check: reads all of a slab, looks whether its light goes on beyond
- * what was sampled (slab_profile.h), and whether all of it arrives, once (flux_box.h). --error
- * tells the slab's own error (slab_accuracy.h). */
+/* cmd_check.c - bakeslab check: reads all of a slab; warns where the slab misses light
+ * (slab_profile.h), loses it or counts it twice (flux_box.h). --error estimates the slab's own
+ * error (slab_accuracy.h). */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,10 +8,11 @@
 #include "file/slab_file.h"
 #include "file/slab_json.h"
 #include "slab/flux_box.h"
+#include "slab/plane.h"
 #include "slab/slab_accuracy.h"
 #include "slab/slab_profile.h"
 
-/* The share of the flux that may be missing, or be there twice, before a warning. */
+/* The part of the flux that may be lost, or counted twice, without a warning. */
 static const double most_lost = 0.01;
 
 struct options {
@@ -44,57 +45,72 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
   }
 }
 
-static enum result judge_page(const char *path, int page, const struct slab *slab, int *warnings,
-                              struct error *error) {
+/* A page that is being checked. */
+struct page {
+  const char *path;
+  const struct slab_file *file;
+  int number; /* from 0 */
+  struct slab slab;
+  int *warnings;
+};
+
+static void begin_line(const struct page *page) {
+  printf("%s: page %d: ", page->path, page->number + 1);
+}
+
+static void begin_warning(const struct page *page) {
+  ++*page->warnings;
+  begin_line(page);
+  printf("warning: ");
+}
+
+static enum result check_borders(const struct page *page, struct error *error) {
   struct slab_profile profile;
-  enum result result = slab_profile(slab, &profile, error);
+  enum result result = slab_profile(&page->slab, &profile, error);
   for (int k = 0; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
     int axis = k / 2, end = k % 2;
     double share = slab_profile_cut_off(&profile, axis, end);
     if (share == 0) continue;
-    ++*warnings;
-    printf("%s: page %d: warning: light is cut off at the %s end of %c (%s): the last samples "
+    begin_warning(page);
+    printf("light is cut off at the %s end of %c (%s): the last samples "
            "have %.3g %% of the brightest, more than %g %%\n",
-           path, page + 1, end ? "high" : "low", "uvst"[axis],
-           axis < SLAB_S ? "uv rectangle" : "st window", 100 * share,
-           100 * slab_profile_limit(axis));
+           end ? "high" : "low", "uvst"[axis], axis < SLAB_S ? "uv rectangle" : "st window",
+           100 * share, 100 * slab_profile_limit(axis));
   }
   slab_profile_free(&profile);
   return result;
 }
 
-static enum result weigh_page(const char *path, int page, const struct slab *slab, int *warnings,
-                              struct error *error) {
-  struct flux_box energy;
-  enum result result = flux_box_measure(slab, &energy, error);
+static enum result check_flux(const struct page *page, struct error *error) {
+  struct flux_box flux;
+  enum result result = flux_box_measure(&page->slab, &flux, error);
   if (result != RESULT_OK) return result;
-  bool lost = fabs(energy.off) > most_lost + energy.known_to;
-  *warnings += lost;
-  double metres2 = slab->metres_per_unit * slab->metres_per_unit;
-  printf("%s: page %d: %sflux %.4g %.4g %.4g %s at the aperture, ", path, page + 1,
-         lost ? "warning: " : "", energy.aperture[0] * metres2, energy.aperture[1] * metres2,
-         energy.aperture[2] * metres2, slab_flux_unit(slab));
-  if (isinf(energy.known_to))
+  if (fabs(flux.difference) > most_lost + flux.uncertainty)
+    begin_warning(page);
+  else
+    begin_line(page);
+  double metres2 = page->slab.metres_per_unit * page->slab.metres_per_unit;
+  printf("flux %.4g %.4g %.4g %s at the aperture, ", flux.aperture[0] * metres2,
+         flux.aperture[1] * metres2, flux.aperture[2] * metres2, slab_flux_unit(&page->slab));
+  if (isinf(flux.uncertainty))
     printf("in too thin a peak to be compared with what arrives on a closed box around\n");
   else
-    printf("%+.2g %% on a closed box around (known to %.2g %%)\n", 100 * energy.off,
-           100 * energy.known_to);
+    printf("%+.2g %% on a closed box around (known to %.2g %%)\n", 100 * flux.difference,
+           100 * flux.uncertainty);
   return RESULT_OK;
 }
 
-/* Does light of a page leave through another page's aperture too? */
-static enum result weigh_twice(const char *path, const struct slab_file *file, int page,
-                               const struct slab *slab, int *warnings, struct error *error) {
+/* Whether light of the page leaves through another page's aperture too. */
+static enum result check_twice(const struct page *page, struct error *error) {
   enum result result = RESULT_OK;
-  for (int other = 0; other < slab_file_pages(file) && result == RESULT_OK; ++other) {
+  for (int other = 0; other < slab_file_pages(page->file) && result == RESULT_OK; ++other) {
     double share = 0;
-    if (other == page) continue;
-    result = flux_box_twice(slab, slab_file_page(file, other), &share, error);
+    if (other == page->number) continue;
+    result = flux_box_twice(&page->slab, slab_file_page(page->file, other), &share, error);
     if (share <= most_lost) continue;
-    ++*warnings;
-    printf("%s: page %d: warning: %.3g %% of its flux leaves through the aperture of page %d "
-           "too, and is there twice\n",
-           path, page + 1, 100 * share, other + 1);
+    begin_warning(page);
+    printf("%.3g %% of its flux leaves through the aperture of page %d too, and is there twice\n",
+           100 * share, other + 1);
   }
   return result;
 }
@@ -107,16 +123,16 @@ static void print_part(const char *before, const char *name, double part) {
     printf("%s%s %.2g %%", before, name, 100 * part);
 }
 
-static enum result print_accuracy(const char *path, int page, const struct slab *slab,
-                                  struct error *error) {
+static enum result print_accuracy(const struct page *page, struct error *error) {
   struct slab_sampling sampling;
   struct slab_accuracy all[SLAB_ACCURACY_DISTANCES], *accuracy = all;
-  enum result result = slab_json_sampling(slab, &sampling, error);
-  if (result == RESULT_OK) result = slab_accuracy_table(slab, &sampling, all, error);
+  enum result result = slab_json_sampling(&page->slab, &sampling, error);
+  if (result == RESULT_OK) result = slab_accuracy_table(&page->slab, &sampling, all, error);
   for (; result == RESULT_OK && accuracy < all + SLAB_ACCURACY_DISTANCES; ++accuracy) {
-    double apertures = accuracy->distance / slab_aperture(slab);
-    printf("%s: page %d: error of irradiance at %g aperture%s (%.6g): ", path, page + 1, apertures,
-           apertures > 1 ? "s" : "", accuracy->distance);
+    double apertures = accuracy->distance / plane_width(&page->slab);
+    begin_line(page);
+    printf("error of irradiance at %g aperture%s (%.6g): ", apertures, apertures > 1 ? "s" : "",
+           accuracy->distance);
     if (isnan(accuracy->all))
       printf("unknown");
     else
@@ -130,20 +146,26 @@ static enum result print_accuracy(const char *path, int page, const struct slab 
   return result;
 }
 
+static enum result check_page(const struct page *page, bool errors, struct error *error) {
+  const int *n = page->slab.samples;
+  enum result result = check_borders(page, error);
+  if (result != RESULT_OK) return result;
+  begin_line(page);
+  printf("valid, %d x %d x %d x %d samples\n", n[0], n[1], n[2], n[3]);
+  result = check_flux(page, error);
+  if (result == RESULT_OK) result = check_twice(page, error);
+  if (result == RESULT_OK && errors) result = print_accuracy(page, error);
+  return result;
+}
+
 static enum result check_file(const char *path, bool errors, int *warnings, struct error *error) {
   struct slab_file *file = NULL;
   enum result result = slab_file_open(path, &file, error);
-  for (int page = 0; result == RESULT_OK && page < slab_file_pages(file); ++page) {
-    struct slab slab = {0};
-    result = slab_file_load(file, page, &slab, error);
-    if (result == RESULT_OK) result = judge_page(path, page, &slab, warnings, error);
-    if (result == RESULT_OK)
-      printf("%s: page %d: valid, %d x %d x %d x %d samples\n", path, page + 1, slab.samples[0],
-             slab.samples[1], slab.samples[2], slab.samples[3]);
-    if (result == RESULT_OK) result = weigh_page(path, page, &slab, warnings, error);
-    if (result == RESULT_OK) result = weigh_twice(path, file, page, &slab, warnings, error);
-    if (result == RESULT_OK && errors) result = print_accuracy(path, page, &slab, error);
-    slab_free(&slab);
+  for (int n = 0; result == RESULT_OK && n < slab_file_pages(file); ++n) {
+    struct page page = {.path = path, .file = file, .number = n, .warnings = warnings};
+    result = slab_file_load(file, n, &page.slab, error);
+    if (result == RESULT_OK) result = check_page(&page, errors, error);
+    slab_free(&page.slab);
   }
   slab_file_close(file);
   return result;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "probe/probe_bake.h"
+#include "slab/plane.h"
 #include "slab/slab_accuracy.h"
 #include "slab/slab_resample.h"
 
@@ -99,7 +100,7 @@ static void move_plane(struct slab *slab, double distance) {
 
 static double distance_of(const struct bake_work *work, const struct slab *slab) {
   double distance = work->options->for_distance;
-  return distance > 0 ? distance : 4 * slab_aperture(slab);
+  return distance > 0 ? distance : 4 * plane_width(slab);
 }
 
 /* Interreflection is smooth: without it less light makes the relative error larger. */

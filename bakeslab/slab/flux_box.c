@@ -1,5 +1,15 @@
-/* flux_box.c - see flux_box.h. Lengths are in aperture widths here, x along u, y along v and z
- * along the normal, from the aperture's middle. */
+/* flux_box.c - the flux on a closed box, by quasi-Monte Carlo integration.
+ *
+ * 1. Find the part of the aperture and of the window that is not black.
+ * 2. For each of the box's five faces, find the part that rays from there may reach.
+ * 3. Take pairs of a point of the aperture and a point of the face, from Roberts' sequence in four
+ *    dimensions. Each contributes L cos cos' / r^2, by the ray that joins them.
+ * 4. Sum in blocks of consecutive points. The scatter of the blocks' sums is the standard error.
+ *
+ * M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+ *
+ * Lengths are in aperture widths here, x along u, y along v and z along the normal, from the
+ * aperture's middle. */
 #include "slab/flux_box.h"
 
 #include <math.h>
@@ -9,15 +19,15 @@
 
 enum { BLOCKS = 16, BLOCK_POINTS = 1 << 14, TWICE_POINTS = 1 << 16, WALLS = 4 };
 
-/* Fewer points than this that count tell nothing. */
-static const double least_points = 1000;
+/* Fewer points than this with light are too few. */
+static const double points_needed = 1000;
 
 struct range {
   double low, high;
 };
 
-static struct range clip(double low, double high, double least, double most) {
-  return (struct range){fmax(low, least), fmin(high, most)};
+static struct range intersect(struct range a, struct range b) {
+  return (struct range){fmax(a.low, b.low), fmin(a.high, b.high)};
 }
 
 static double along(struct range range, double share) {
@@ -28,7 +38,7 @@ static double size(struct range range) {
   return fmax(range.high - range.low, 0);
 }
 
-/* The part of the aperture and of the window that holds all light. */
+/* The part of the aperture and of the window that is not black. */
 struct source {
   const struct slab *slab;
   double width, kappa;
@@ -50,13 +60,15 @@ static enum result make_source(const struct slab *slab, struct source *source,
   for (int axis = 0; axis < SLAB_AXES && result == RESULT_OK; ++axis) {
     int first = 0, last = slab->samples[axis] - 1;
     double unit = axis < SLAB_S ? width : 1, spacing = slab_spacing(slab, axis);
+    struct range lit, all;
     while (first < last && profile.axis[axis][first] == 0) ++first;
     while (last > first && profile.axis[axis][last] == 0) --last;
     /* As far as interpolation carries the outermost light. */
-    source->axis[axis] =
-        clip(slab_position(slab, axis, first) - spacing, slab_position(slab, axis, last) + spacing,
-             slab_position(slab, axis, 0) - spacing / 2,
-             slab_position(slab, axis, slab->samples[axis] - 1) + spacing / 2);
+    lit.low = slab_position(slab, axis, first) - spacing;
+    lit.high = slab_position(slab, axis, last) + spacing;
+    all.low = slab_position(slab, axis, 0) - spacing / 2;
+    all.high = slab_position(slab, axis, slab->samples[axis] - 1) + spacing / 2;
+    source->axis[axis] = intersect(lit, all);
     source->axis[axis].low /= unit;
     source->axis[axis].high /= unit;
   }
@@ -82,12 +94,12 @@ static double half_box(const struct source *source, int k) {
   return 1 + plane_edge(source->slab, SLAB_U + k) / source->width / 2;
 }
 
-/* What rays reach along axis k from z.low to z.high. */
+/* What rays reach along axis k of the box from z.low to z.high. */
 static struct range reach(const struct source *source, int k, struct range z) {
   struct range place = source->axis[SLAB_U + k], slope = slopes(source, k);
-  return clip(place.low + fmin(slope.low * z.low, slope.low * z.high),
-              place.high + fmax(slope.high * z.low, slope.high * z.high), -half_box(source, k),
-              half_box(source, k));
+  struct range reached = {place.low + fmin(slope.low * z.low, slope.low * z.high),
+                          place.high + fmax(slope.high * z.low, slope.high * z.high)};
+  return intersect(reached, (struct range){-half_box(source, k), half_box(source, k)});
 }
 
 static struct face make_lid(const struct source *source) {
@@ -102,10 +114,11 @@ static struct face make_wall(const struct source *source, int k, int side) {
   struct range slope = slopes(source, k), place = source->axis[SLAB_U + k];
   double nearest = face.place - (side > 0 ? place.high : -place.low);
   double farthest = face.place - (side > 0 ? place.low : -place.high);
-  double steepest = side > 0 ? slope.high : -slope.low, least = side > 0 ? slope.low : -slope.high;
+  double steepest = side > 0 ? slope.high : -slope.low;
+  double flattest = side > 0 ? slope.low : -slope.high;
   face.lit[k] = (struct range){side * face.place, side * face.place};
   face.lit[2] = steepest > 0 ? (struct range){nearest / steepest, 1} : (struct range){1, 1};
-  if (least > 0) face.lit[2].high = fmin(1, farthest / least);
+  if (flattest > 0) face.lit[2].high = fmin(1, farthest / flattest);
   face.lit[1 - k] = reach(source, 1 - k, face.lit[2]);
   return face;
 }
@@ -123,7 +136,7 @@ static void sequence(int n, double share[4]) {
   for (int k = 0; k < 4; ++k) share[k] = fmod(0.5 + (n + 1) * step[k], 1);
 }
 
-/* What point n of a face gets: L cos cos' / r^2, by the ray from a point of the aperture. */
+/* Point n of step 3. */
 static void sample(const struct source *source, const struct face *face, int n, double rgb[3]) {
   const struct slab *slab = source->slab;
   double share[4], way[3], point[3] = {0}, direction[3] = {0}, abst[SLAB_AXES], square = 0;
@@ -169,47 +182,45 @@ static void add_face(const struct source *source, const struct face *face, struc
     }
 }
 
-/* Three standard errors, by how much blocks differ; the sum itself converges faster. */
-static void judge(const struct sums *sums, struct flux_box *energy) {
-  double worst = 0, variance = 0;
-  bool dark = sums->all == 0;
-  for (int c = 0; c < 3; ++c) dark = dark && energy->aperture[c] == 0;
-  if (dark) return;
+/* The uncertainty is three standard errors; the sum itself converges faster. */
+static void compare(const struct sums *sums, struct flux_box *flux) {
+  double worst = 0, variance = 0, all = sums->all / BLOCKS;
+  bool black = sums->all == 0;
+  for (int c = 0; c < 3; ++c) black = black && flux->aperture[c] == 0;
+  if (black) return;
   for (int c = 0; c < 3; ++c) {
     double mean = 0, squares = 0;
     for (int n = 0; n < BLOCKS; ++n) mean += sums->block[n][c] / BLOCKS;
     for (int n = 0; n < BLOCKS; ++n) squares += pow(sums->block[n][c] - mean, 2);
-    energy->box[c] = mean;
-    if (fabs(mean - energy->aperture[c]) > fabs(worst)) worst = mean - energy->aperture[c];
+    flux->box[c] = mean;
+    if (fabs(mean - flux->aperture[c]) > fabs(worst)) worst = mean - flux->aperture[c];
     variance += squares / (BLOCKS - 1) / BLOCKS;
   }
-  double flux = sums->all / BLOCKS;
-  energy->off = worst / flux;
-  energy->known_to = 3 * sqrt(variance) / flux;
-  if (!(sums->all * sums->all >= least_points * sums->squares)) energy->known_to = INFINITY;
+  flux->difference = worst / all;
+  flux->uncertainty = 3 * sqrt(variance) / all;
+  if (!(sums->all * sums->all >= points_needed * sums->squares)) flux->uncertainty = INFINITY;
 }
 
-enum result flux_box_measure(const struct slab *slab, struct flux_box *energy,
-                             struct error *error) {
+enum result flux_box_measure(const struct slab *slab, struct flux_box *flux, struct error *error) {
   struct source source;
   struct sums sums = {0};
-  *energy = (struct flux_box){0};
+  *flux = (struct flux_box){0};
   enum result result = make_source(slab, &source, error);
+  if (result == RESULT_OK && slab_flux(slab, flux->aperture) != RESULT_OK)
+    result = result_no_memory(error);
   if (result != RESULT_OK) return result;
-  slab_flux(slab, energy->aperture);
-  if (isnan(energy->aperture[0])) return result_fail(error, RESULT_MEMORY, "out of memory");
   struct face face = make_lid(&source);
   add_face(&source, &face, &sums);
   for (int wall = 0; wall < WALLS; ++wall) {
     face = make_wall(&source, wall / 2, wall % 2 ? 1 : -1);
     add_face(&source, &face, &sums);
   }
-  judge(&sums, energy);
+  compare(&sums, flux);
   return RESULT_OK;
 }
 
-/* Does the ray, which starts at the point and goes on for ever, leave through the aperture
- * of `other` and inside its window? On its plane, within rounding, it does. */
+/* Whether the ray from the point on leaves through the aperture of `other`, inside its window. A
+ * point on that plane, within rounding, counts. */
 static bool leaves_through(const struct slab *other, const double point[3],
                            const double direction[3]) {
   double abst[SLAB_AXES], ahead = 0;

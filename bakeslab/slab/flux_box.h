@@ -1,10 +1,11 @@
-/* flux_box.h - book-keeping of light: what leaves a slab's aperture arrives somewhere, once.
+/* flux_box.h - checks that the light of a slab is conserved: what leaves the aperture arrives on a
+ * closed box around it, and no other page emits it again.
  *
- * A closed box stands on the aperture's plane: its lid and walls are an aperture's width
- * (the longer edge) away from it. The flux on them is an integral of irradiance over
- * points of the box, of rays as a renderer looks them up; it shares nothing but the samples
- * with slab_flux, which integrates over the aperture and the window. Quasi-random, always
- * the same; a fraction of a second. */
+ * The box stands on the aperture's plane: its lid and walls are an aperture's width (the longer
+ * edge) away from it. The flux on them is an integral of irradiance over points of the box, of
+ * rays as a renderer looks them up; it shares nothing but the samples with slab_flux, which
+ * integrates over the aperture and the window. Quasi-random, always the same; a fraction of a
+ * second. */
 #ifndef FLUX_BOX_H
 #define FLUX_BOX_H
 
@@ -13,16 +14,16 @@
 struct flux_box {
   double aperture[3]; /* slab_flux */
   double box[3];      /* arriving on the box, same units */
-  double off;         /* their difference over the flux of |radiance|; 0 without light */
-  double known_to;    /* how far `off` may be wrong; INFINITY: the light is too thin a peak for
-                         this sum to have met it often enough */
+  double difference;  /* of the two, over the flux of |radiance|; 0 without light */
+  double uncertainty; /* how far `difference` may be wrong; INFINITY: the light is too thin a peak
+                         for this sum to have met it often enough */
 };
 
-enum result flux_box_measure(const struct slab *slab, struct flux_box *energy, struct error *error);
+enum result flux_box_measure(const struct slab *slab, struct flux_box *flux, struct error *error);
 
-/* The share of a slab's flux, of |radiance|, that goes on to leave through the aperture of
- * `other` too, inside its window: light that a lamp of both pages gives twice. Of `other`
- * only the geometry counts. */
+/* The part of a slab's flux, of |radiance|, that goes on to leave through the aperture of `other`,
+ * inside its window: light that a lamp of both pages counts twice. Of `other` only the geometry
+ * matters. */
 enum result flux_box_twice(const struct slab *slab, const struct slab *other, double *share,
                            struct error *error);
 

@@ -1,4 +1,4 @@
-/* plane.c - irradiance of a slab on planes. */
+/* plane.c - see plane.h. */
 #include "slab/plane.h"
 
 #include <math.h>
@@ -64,16 +64,16 @@ struct plane plane_make(const struct slab *slab, double distance, double margin,
   return plane;
 }
 
-/* Where a receiver stands in its cell: rows and columns, which edges of light may follow,
- * have theirs spread evenly over the cell, by the golden ratio. */
-static double spread(int index) {
+/* Where a receiver stands in its cell, from 0 to 1. Edges of light may lie along rows or columns:
+ * the receivers of each are spread evenly over the width of the cell, by the golden ratio. */
+static double stagger(int index) {
   double place = 0.5 + 0.6180339887498949 * index;
   return place - floor(place);
 }
 
 void plane_receiver(const struct plane *plane, int column, int row, double at[2]) {
-  at[0] = plane->low[0] + (column + spread(row)) / plane->receivers * plane->size[0];
-  at[1] = plane->low[1] + (row + spread(column)) / plane->receivers * plane->size[1];
+  at[0] = plane->low[0] + (column + stagger(row)) / plane->receivers * plane->size[0];
+  at[1] = plane->low[1] + (row + stagger(column)) / plane->receivers * plane->size[1];
 }
 
 /* Angle at which the lit part begins along an axis, and how far it reaches. */

@@ -1,11 +1,6 @@
 /* slab_accuracy.h - the slab's own error: what its finite resolution and the noise of its
- * samples do to the irradiance of what it lights, whatever method sums it.
- *
- * Told from the slab alone. It is halved (means over 2 x 2 cells of s and t, or of u and
- * v) once and twice. With E1 the irradiance by the slab itself, E2 and E4 by the halved
- * ones, r = |E4 - E2| / |E2 - E1| says how fast errors fall with resolution: 4 times a
- * halving where the light is smooth in cells, 2 and less at edges. The error left in E1
- * is then about (E2 - E1) / (r - 1). */
+ * samples do to the irradiance of what it lights, whatever method sums it. Estimated from the
+ * slab alone, by Richardson extrapolation from coarser copies of it (slab_accuracy.c). */
 #ifndef SLAB_ACCURACY_H
 #define SLAB_ACCURACY_H
 
@@ -21,10 +16,9 @@ struct slab_accuracy {
 };
 
 /* The distances that `bakeslab check --error` states, in apertures: longer edges of the
- * slab's rectangle. */
+ * slab's rectangle (plane_width). */
 enum { SLAB_ACCURACY_DISTANCES = 3 };
 extern const double slab_accuracy_apertures[SLAB_ACCURACY_DISTANCES];
-double slab_aperture(const struct slab *slab);
 
 /* How a slab's samples were taken: slab_json_sampling. */
 struct slab_sampling {

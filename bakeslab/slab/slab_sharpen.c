@@ -1,20 +1,34 @@
 /* slab_sharpen.c - see slab_sharpen.h. Works on one view at a time, in double: an array
- * [t][s][rgb]. */
+ * [t][s][rgb].
+ *
+ * 1. Solve A x = m along all lines of s, then of t: m are the view's samples, which are means over
+ *    cells, and A is the matrix that interpolates x and takes the means again. It is tridiagonal:
+ *    elimination without pivots, since the diagonal dominates.
+ * 2. EXACT ends here. POSITIVE goes on where a sample became negative, by flux-corrected transport
+ *    (Zalesak 1979). The low-order solution is m itself. The antidiffusive flux between neighbours
+ *    is what the exact solution moves between them.
+ * 3. The limiter of a sample is the part of its outgoing fluxes that it can give without becoming
+ *    negative (Zalesak's R-), the least of all channels.
+ * 4. Move each flux, times the limiter of the sample that gives it; keep the rest. Steps 3 and 4
+ *    are done PASSES times, since what arrived may be given on.
+ *
+ * S. T. Zalesak, "Fully multidimensional flux-corrected transport algorithms for fluids", Journal
+ * of Computational Physics 31, 1979. */
 #include "slab/slab_sharpen.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PASSES = 4 }; /* of limiting: each gives what the ones before withheld another chance */
+enum { PASSES = 4 };
 
-/* The diagonal: a border's half cell is constant. */
+/* ---- 1. A line ---- */
+
+/* The diagonal of 8 A; beside it there are ones. A border's half cell is constant. */
 static double diagonal(int k, int count) {
   return k == 0 || k == count - 1 ? 7 : 6;
 }
 
-/* Elimination of 8 times the system: off the diagonal it is 1, and it dominates, so
- * that no pivot is needed. */
 void slab_sharpen_line(double *line, int count, size_t stride, double *scratch) {
   if (count < 2) return;
   double *upper = scratch, *right = scratch + count;
@@ -46,26 +60,23 @@ void slab_unsharpen_line(double *line, int count, size_t stride) {
 struct view {
   int ns, nt;
   size_t count;                   /* 3 ns nt */
-  double *mean, *sharp, *give[2]; /* give: what a sample gives to the next along s, t */
-  double *share, *scratch;        /* share: of its gifts that a sample can afford */
+  double *mean, *sharp, *flux[2]; /* flux: what a sample gives to the next along s, t */
+  double *limit;                  /* of each sample */
+  double *scratch;                /* for a line */
 };
-
-static void free_view(struct view *view) {
-  free(view->mean);
-}
 
 static enum result make_view(const struct slab *slab, struct view *view, struct error *error) {
   int ns = slab->samples[SLAB_S], nt = slab->samples[SLAB_T];
   size_t count = 3 * (size_t)ns * (size_t)nt, longest = (size_t)(ns > nt ? ns : nt);
   double *room = calloc(5 * count + 2 * longest, sizeof *room);
-  if (!room) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!room) return result_no_memory(error);
   *view = (struct view){.ns = ns,
                         .nt = nt,
                         .count = count,
-                        .mean = room,
+                        .mean = room, /* the block that is to be freed */
                         .sharp = room + count,
-                        .give = {room + 2 * count, room + 3 * count},
-                        .share = room + 4 * count,
+                        .flux = {room + 2 * count, room + 3 * count},
+                        .limit = room + 4 * count,
                         .scratch = room + 5 * count};
   return RESULT_OK;
 }
@@ -74,7 +85,7 @@ static size_t step(const struct view *view, int axis) {
   return axis ? 3 * (size_t)view->ns : 3;
 }
 
-/* Runs along all lines of the view, of one axis (0: s, 1: t) and all channels. */
+/* Along all lines of the view, of one axis (0: s, 1: t) and all channels. */
 static void each_line(const struct view *view, double *x, int axis, bool sharpen) {
   size_t lines = (size_t)(axis ? view->ns : view->nt), count = (size_t)(axis ? view->nt : view->ns);
   for (size_t line = 0; line < lines; ++line)
@@ -87,65 +98,63 @@ static void each_line(const struct view *view, double *x, int axis, bool sharpen
     }
 }
 
-/* What the exact solution moves between neighbours: x - A x is the difference of (x[k+1]
- * - x[k])/8 on a cell's two sides. Along s of x, along t of what A makes of x along s. */
-static void find_gifts(struct view *view) {
-  memcpy(view->share, view->sharp, view->count * sizeof *view->share);
+/* x - A x is the difference of (x[k+1] - x[k])/8 on a cell's two sides: along s of x, along t of
+ * what A makes of x along s. */
+static void find_fluxes(struct view *view) {
+  double *x = view->limit; /* not in use yet */
+  memcpy(x, view->sharp, view->count * sizeof *x);
   for (int axis = 0; axis < 2; ++axis) {
     size_t next = step(view, axis), last = (size_t)(axis ? view->nt : view->ns) - 1;
     for (size_t n = 0; n < view->count; ++n) {
       size_t at = axis ? n / step(view, 1) : n % step(view, 1) / 3;
-      view->give[axis][n] = at < last ? (view->share[n + next] - view->share[n]) / 8 : 0;
+      view->flux[axis][n] = at < last ? (x[n + next] - x[n]) / 8 : 0;
     }
-    if (axis == 0) each_line(view, view->share, 0, false);
+    if (axis == 0) each_line(view, x, 0, false);
   }
 }
 
-/* The share of its gifts that each sample can afford, all channels alike. */
-static void find_shares(struct view *view) {
+static void find_limits(struct view *view) {
   for (size_t n = 0; n < view->count; n += 3) {
-    double least = 1;
+    double limit = 1;
     for (size_t c = n; c < n + 3; ++c) {
-      double all = 0;
+      double outgoing = 0;
       for (int axis = 0; axis < 2; ++axis) {
         size_t next = step(view, axis);
-        all += fmax(view->give[axis][c], 0);
-        /* the sample before: what it would be given from here */
-        if (c >= next) all += fmax(-view->give[axis][c - next], 0);
+        outgoing += fmax(view->flux[axis][c], 0);
+        if (c >= next) outgoing += fmax(-view->flux[axis][c - next], 0);
       }
-      if (all > view->mean[c]) least = fmin(least, fmax(view->mean[c], 0) / all);
+      if (outgoing > view->mean[c]) limit = fmin(limit, fmax(view->mean[c], 0) / outgoing);
     }
-    for (size_t c = n; c < n + 3; ++c) view->share[c] = least;
+    for (size_t c = n; c < n + 3; ++c) view->limit[c] = limit;
   }
 }
 
-/* Moves the part of each gift that its giver can afford, and keeps the rest of it. */
-static void give(struct view *view) {
+static void move_fluxes(struct view *view) {
   for (int axis = 0; axis < 2; ++axis) {
     size_t next = step(view, axis);
     for (size_t n = 0; n + next < view->count; n += 3) {
-      double share = 1;
+      double limit = 1;
       for (size_t c = n; c < n + 3; ++c) {
-        if (view->give[axis][c] > 0) share = fmin(share, view->share[c]);
-        if (view->give[axis][c] < 0) share = fmin(share, view->share[c + next]);
+        if (view->flux[axis][c] > 0) limit = fmin(limit, view->limit[c]);
+        if (view->flux[axis][c] < 0) limit = fmin(limit, view->limit[c + next]);
       }
       for (size_t c = n; c < n + 3; ++c) {
-        double moved = share * view->give[axis][c];
+        double moved = limit * view->flux[axis][c];
         view->mean[c] -= moved;
         view->mean[c + next] += moved;
-        view->give[axis][c] -= moved;
+        view->flux[axis][c] -= moved;
       }
     }
   }
 }
 
 /* From view->mean to view->sharp, without negative samples where there were none. */
-static void limit(struct view *view) {
-  find_gifts(view);
+static void sharpen_limited(struct view *view) {
+  find_fluxes(view);
   memcpy(view->sharp, view->mean, view->count * sizeof *view->sharp);
   for (int pass = 0; pass < PASSES; ++pass) {
-    find_shares(view);
-    give(view);
+    find_limits(view);
+    move_fluxes(view);
   }
   for (size_t n = 0; n < view->count; ++n) {
     bool rounding = view->mean[n] < 0 && view->sharp[n] >= 0;
@@ -162,7 +171,7 @@ static void do_view(struct view *view, enum task task) {
   for (int axis = 0; axis < 2; ++axis) each_line(view, view->sharp, axis, task != UNSHARPEN);
   bool negative = false;
   for (size_t n = 0; n < view->count; ++n) negative |= view->sharp[n] < 0;
-  if (negative && task == SHARPEN_POSITIVE) limit(view);
+  if (negative && task == SHARPEN_POSITIVE) sharpen_limited(view);
 }
 
 static enum result do_slab(struct slab *slab, enum task task, struct error *error) {
@@ -172,17 +181,17 @@ static enum result do_slab(struct slab *slab, enum task task, struct error *erro
   size_t width = step(&view, 1);
   for (int j = 0; j < slab->samples[SLAB_V]; ++j)
     for (int i = 0; i < slab->samples[SLAB_U]; ++i) {
-      bool dark = true;
+      bool black = true;
       for (size_t n = 0; n < view.count; ++n) {
         view.mean[n] = (double)slab_at(slab, i, j, 0, (int)(n / width))[n % width];
-        dark &= view.mean[n] == 0;
+        black &= view.mean[n] == 0;
       }
-      if (dark) continue;
+      if (black) continue;
       do_view(&view, task);
       for (size_t n = 0; n < view.count; ++n)
         slab_at(slab, i, j, 0, (int)(n / width))[n % width] = (float)view.sharp[n];
     }
-  free_view(&view);
+  free(view.mean);
   return RESULT_OK;
 }
 

@@ -19,8 +19,8 @@ enum slab_sharpening {
 
 /* Sharpens along s and t. POSITIVE limits what a sample gives to its neighbours in the
  * view, by flux-corrected transport (Zalesak 1979), to what it has: light moves between
- * neighbours only, and cells far from darkness keep their means. Colours are limited
- * alike in all channels. */
+ * neighbours only, and cells that are not beside black ones keep their means. All channels
+ * are limited alike, so that colours stay. */
 enum result slab_sharpen(struct slab *slab, enum slab_sharpening how, struct error *error);
 
 /* The inverse of SLAB_SHARPEN_EXACT: each sample becomes the mean of the interpolated

@@ -33,14 +33,14 @@ static void test_even(void **state) {
   for (size_t n = 0; n < sizeof windows / sizeof *windows; ++n) {
     struct slab slab = even_slab(windows[n], INFINITY);
     struct error error = {{0}};
-    struct flux_box energy;
-    assert_ok(flux_box_measure(&slab, &energy, &error), &error);
+    struct flux_box flux;
+    assert_ok(flux_box_measure(&slab, &flux, &error), &error);
     for (int c = 0; c < 3; ++c) {
       double expected = (1 + c) * 0.4 * 0.7 * window_sum(windows[n]);
-      assert_near(energy.box[c] / expected, 1, 1e-2);
-      assert_near(energy.aperture[c] / expected, 1, 1e-5);
+      assert_near(flux.box[c] / expected, 1, 1e-2);
+      assert_near(flux.aperture[c] / expected, 1, 1e-5);
     }
-    assert_true(fabs(energy.off) <= energy.known_to && energy.known_to < 0.04);
+    assert_true(fabs(flux.difference) <= flux.uncertainty && flux.uncertainty < 0.04);
     slab_free(&slab);
   }
 }
@@ -52,12 +52,12 @@ static void test_colours(void **state) {
   for (size_t d = 0; d < 3; ++d) {
     struct slab slab = awkward_slab(grid, distances[d]);
     struct error error = {{0}};
-    struct flux_box energy;
+    struct flux_box flux;
     fill_colours(&slab, 5);
     for (size_t k = 0; k < 3 * slab_sample_count(&slab); k += 4) slab.rgb[k] *= -0.5F;
-    assert_ok(flux_box_measure(&slab, &energy, &error), &error);
-    assert_true(fabs(energy.off) <= energy.known_to && energy.known_to < 0.02);
-    for (int c = 0; c < 3; ++c) assert_near(energy.box[c] / energy.aperture[c], 1, 0.01);
+    assert_ok(flux_box_measure(&slab, &flux, &error), &error);
+    assert_true(fabs(flux.difference) <= flux.uncertainty && flux.uncertainty < 0.02);
+    for (int c = 0; c < 3; ++c) assert_near(flux.box[c] / flux.aperture[c], 1, 0.01);
     slab_free(&slab);
   }
 }
@@ -68,15 +68,15 @@ static void test_peaks(void **state) {
   (void)state;
   struct slab slab = awkward_slab((const int[]){16, 16, 32, 32}, INFINITY);
   struct error error = {{0}};
-  struct flux_box energy;
-  assert_ok(flux_box_measure(&slab, &energy, &error), &error);
-  assert_true(energy.off == 0 && energy.known_to == 0);
+  struct flux_box flux;
+  assert_ok(flux_box_measure(&slab, &flux, &error), &error);
+  assert_true(flux.difference == 0 && flux.uncertainty == 0);
   slab_at(&slab, 3, 15, 7, 0)[1] = 40;
-  assert_ok(flux_box_measure(&slab, &energy, &error), &error);
-  assert_true(fabs(energy.off) <= energy.known_to && energy.known_to < 0.02);
+  assert_ok(flux_box_measure(&slab, &flux, &error), &error);
+  assert_true(fabs(flux.difference) <= flux.uncertainty && flux.uncertainty < 0.02);
   for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] += 1e-12F;
-  assert_ok(flux_box_measure(&slab, &energy, &error), &error);
-  assert_true(isinf(energy.known_to));
+  assert_ok(flux_box_measure(&slab, &flux, &error), &error);
+  assert_true(isinf(flux.uncertainty));
   slab_free(&slab);
 }
 

@@ -9,6 +9,7 @@
 #include "bench/lamp.h"
 #include "file/slab_json.h"
 #include "helpers.h"
+#include "slab/plane.h"
 #include "slab/slab_accuracy.h"
 #include "slab/slab_sharpen.h"
 
@@ -204,7 +205,7 @@ static void test_units(void **state) {
   struct slab_accuracy floors[2];
   for (size_t n = 0; n < 3 * slab_sample_count(&large); ++n) large.rgb[n] *= 1e6F;
   for (int c = 0; c < 3; ++c) large.u[c] *= 1e-3, large.v[c] *= 1e-3, large.center[c] = 7;
-  assert_near(slab_aperture(&large), 1e-3, 1e-18);
+  assert_near(plane_width(&large), 1e-3, 1e-18);
   for (int d = 0; d < 2; ++d) {
     double distance = d ? 3 : 0.5, scaled = 1e-3 * distance;
     small.st_distance = d ? 3 : INFINITY; /* at 3, every point sees one sample of st */
