@@ -1,4 +1,20 @@
-/* bake.c - see bake.h. */
+/* bake.c - from a lamp script to a slab.
+ *
+ * 1. A trial run of the script (lamp.h) tells the slabs that it declares, the effects that it
+ *    needs, the files that it reads, how bright the lamp is, and which cameras work.
+ * 2. Small bakes (probe.h) decide what neither the user nor the script does: effects, windows, the
+ *    number of samples.
+ * 3. Rounds of batches (bake_rounds.h): each sample is the mean of the radiance over its 4D cell,
+ *    by pairs of antithetic rays (Hammersley and Morton 1956) on a Sobol sequence (Joe and Kuo
+ *    2008), as many as the tile's noise calls for (Neyman 1934).
+ * 4. Samples are the sums over their rays; what they say of the slab, borders that cut light off
+ *    and its own error, goes into the report.
+ * 5. Write the slab, with its provenance and the lamp's housing, and drop the store.
+ *
+ * The slab is that of Heidrich, Kautz, Slusallek and Seidel, "Canned Lightsources", 1998, section
+ * 3. J. M. Hammersley and K. W. Morton, "A new Monte Carlo technique: antithetic variates",
+ * Mathematical Proceedings of the Cambridge Philosophical Society 52, 1956; the others are cited
+ * where they are used. */
 #include "bake/bake.h"
 
 #include <errno.h>
@@ -30,8 +46,10 @@ struct bake_state {
   struct bake_origin origin;
 };
 
-/* A power of two that keeps the picture well inside half float's range. The probe
- * sees a few thousand rays only, so there is room above what it saw. */
+/* ---- 1. The trial run ---- */
+
+/* A power of two that keeps the picture well inside half float's range. The trial run shoots a few
+ * thousand rays only, so room is left above the peak that it saw. */
 static double choose_gain(const struct bake_options *options, double peak) {
   int exponent;
   if (options->gain > 0) return options->gain;
@@ -42,9 +60,8 @@ static double choose_gain(const struct bake_options *options, double peak) {
   return 1;
 }
 
-/* The probe rendered as a mesh_camera says whether that works. A process costs about as
- * much as 16384 meshes or three frames: with far fewer directions than positions, one
- * image a direction is cheaper. */
+/* A process costs about as much as 16384 mesh cameras or three frames: with far fewer directions
+ * than positions, one image a direction is cheaper. */
 static enum result choose_form(const struct bake_options *options, const struct lamp *lamp,
                                enum bake_form *form, struct error *error) {
   bool infinite = true;
@@ -64,46 +81,86 @@ static enum result choose_form(const struct bake_options *options, const struct 
   const int *samples = lamp->slabs[0].samples;
   double positions = (double)samples[SLAB_U] * samples[SLAB_V],
          directions = (double)samples[SLAB_S] * samples[SLAB_T];
-  if (infinite && (positions > 4096 * directions))
-    *form = BAKE_TRANSPOSED;
-  else
-    *form = lamp->mesh_camera ? BAKE_MESH : BAKE_PERSPECTIVE;
+  *form = infinite && positions > 4096 * directions ? BAKE_TRANSPOSED
+          : lamp->mesh_camera                       ? BAKE_MESH
+                                                    : BAKE_PERSPECTIVE;
   return RESULT_OK;
 }
 
-/* ---- The slab ---- */
-
-/* The lamp's visible housing as SDL, where the script declares one that stands alone. */
-static enum result find_housing(const struct bake_work *work, struct bake_report *report,
-                                char **housing, struct error *error) {
-  char *script = files_read(work->source->folder, strrchr(work->source->path, '/') + 1);
-  char *scratch = NULL;
-  if (!script)
-    return result_fail(error, RESULT_IO, "%s: %s", work->source->script, strerror(errno));
-  errno = 0;
-  *housing = housing_find(script);
-  enum result result = RESULT_OK;
-  if (*housing)
-    result = bake_store_scratch(work->store, &scratch, error);
-  else if (errno == ENOMEM)
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
-  if (*housing && result == RESULT_OK)
-    result = housing_parses(work->povray, *housing, scratch, error);
-  if (result == RESULT_BAD) {
-    report->housing_left_out = true;
-    free(*housing);
-    *housing = NULL;
-    result = RESULT_OK;
-  }
+/* Runs the script with these effects, or those of its Canned_Needs (NULL), and takes from it what
+ * the cameras depend on. */
+static enum result try_lamp(struct bake_work *work, struct bake_state *state,
+                            const struct effects *effects, struct error *error) {
+  const struct bake_options *options = work->options;
+  char *scratch;
+  lamp_free(&state->lamp);
+  enum result result = bake_store_scratch(&state->store, &scratch, error);
+  if (result == RESULT_OK)
+    result =
+        lamp_try(&state->povray, &state->source, scratch, effects, work->stop, &state->lamp, error);
   free(scratch);
-  free(script);
+  for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
+    int *samples = state->lamp.slabs[n].samples;
+    memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]},
+           SLAB_AXES * sizeof *samples);
+    result = slab_check(&state->lamp.slabs[n], error);
+  }
+  if (result == RESULT_OK) result = choose_form(options, &state->lamp, &work->look.form, error);
+  if (result != RESULT_OK) return result;
+  work->slabs = state->lamp.slabs;
+  work->look.defect_rows = state->lamp.defect_rows;
+  work->look.gain = choose_gain(options, state->lamp.peak);
+  return RESULT_OK;
+}
+
+/* ---- 2. What the bake is to be ---- */
+
+/* Effects are those that the user names, else those of the script's Canned_Needs, else those that
+ * small bakes show to matter. What a script does may depend on them: it is run again with them. */
+static enum result find_effects(struct bake_work *work, struct bake_state *state,
+                                struct bake_report *report, struct error *error) {
+  const char *word = work->options->effects;
+  bool automatic = !strcmp(word, "auto"), probe = !strcmp(word, "probe");
+  enum result result = RESULT_OK;
+  if (automatic) result = try_lamp(work, state, NULL, error);
+  if (result == RESULT_OK && automatic && state->lamp.needs_declared)
+    result = effects_parse(state->lamp.needs, "Canned_Needs", &state->effects, error);
+  else if (result == RESULT_OK && !automatic && !probe)
+    result = effects_parse(word, "--effects", &state->effects, error);
+  else if (result == RESULT_OK) {
+    struct effects all;
+    state->origin.probed = true;
+    result = effects_parse("all", "--effects", &all, error);
+    if (result == RESULT_OK) result = try_lamp(work, state, &all, error);
+    if (result == RESULT_OK)
+      result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
+  }
+  bool known = automatic && !state->origin.probed && !effects_any(&state->effects);
+  return result != RESULT_OK || known ? result : try_lamp(work, state, &state->effects, error);
+}
+
+static enum result prepare(struct bake_work *work, struct bake_state *state,
+                           struct bake_report *report, struct error *error) {
+  const struct bake_options *options = work->options;
+  enum result result = find_effects(work, state, report, error);
+  if (result == RESULT_OK && options->depend)
+    result = lamp_depend_check(&state->lamp.reads, state->source.path, options->output,
+                               options->depend, error);
+  if (result == RESULT_OK && options->window_auto)
+    result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
+  if (result == RESULT_OK && options->tolerance > 0)
+    result = probe_resolution(work, state->lamp.slabs, &state->origin.resolution, report, error);
+  if (result == RESULT_OK) result = choose_form(options, &state->lamp, &work->look.form, error);
+  work->look.offsets = options->centre         ? BAKE_CENTRE
+                       : work->effort.adaptive ? BAKE_OWN
+                                               : BAKE_SHARED;
   return result;
 }
 
-/* What the samples say of the slab: where it cuts light off, and its own error at the
- * distances of a tolerance. */
-static enum result judge(const struct bake_work *work, const struct bake_state *state,
-                         struct bake_report *report, struct error *error) {
+/* ---- 4. What the samples say ---- */
+
+static enum result assess(const struct bake_work *work, const struct bake_state *state,
+                          struct bake_report *report, struct error *error) {
   enum result result = RESULT_OK;
   for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
     const struct slab *page = &state->lamp.slabs[n];
@@ -127,6 +184,35 @@ static enum result judge(const struct bake_work *work, const struct bake_state *
   return result;
 }
 
+/* ---- 5. The slab ---- */
+
+/* The lamp's visible housing as SDL, where the script declares one that stands alone. */
+static enum result find_housing(const struct bake_work *work, struct bake_report *report,
+                                char **housing, struct error *error) {
+  char *script = files_read(work->source->folder, strrchr(work->source->path, '/') + 1);
+  char *scratch = NULL;
+  if (!script)
+    return result_fail(error, RESULT_IO, "%s: %s", work->source->script, strerror(errno));
+  errno = 0;
+  *housing = housing_find(script);
+  enum result result = RESULT_OK;
+  if (*housing)
+    result = bake_store_scratch(work->store, &scratch, error);
+  else if (errno == ENOMEM)
+    result = result_no_memory(error);
+  if (*housing && result == RESULT_OK)
+    result = housing_parses(work->povray, *housing, scratch, error);
+  if (result == RESULT_BAD) {
+    report->housing_left_out = true;
+    free(*housing);
+    *housing = NULL;
+    result = RESULT_OK;
+  }
+  free(scratch);
+  free(script);
+  return result;
+}
+
 static enum result write_slab(const struct bake_work *work, struct bake_state *state,
                               struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
@@ -144,79 +230,9 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
                              options->centre ? "\"points\"" : "\"cell_means\"", error);
   }
   free(text);
-  if (result == RESULT_OK) result = judge(work, state, report, error);
-  return result != RESULT_OK
-             ? result
-             : slab_file_write(options->output, pages, count, options->precision, error);
-}
-
-/* ---- What is to be baked ---- */
-
-/* Reads the lamp with these effects, or those of its Canned_Needs (NULL), and with it all
- * that cameras need to know. */
-static enum result read_lamp(struct bake_work *work, struct bake_state *state,
-                             const struct effects *effects, struct error *error) {
-  const struct bake_options *options = work->options;
-  char *scratch;
-  lamp_free(&state->lamp);
-  enum result result = bake_store_scratch(&state->store, &scratch, error);
+  if (result == RESULT_OK) result = assess(work, state, report, error);
   if (result == RESULT_OK)
-    result =
-        lamp_try(&state->povray, &state->source, scratch, effects, work->stop, &state->lamp, error);
-  free(scratch);
-  for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
-    int *samples = state->lamp.slabs[n].samples;
-    memcpy(samples, (int[]){options->uv[0], options->uv[1], options->st[0], options->st[1]},
-           SLAB_AXES * sizeof *samples);
-    result = slab_check(&state->lamp.slabs[n], error);
-  }
-  if (result == RESULT_OK) result = choose_form(options, &state->lamp, &work->look.form, error);
-  if (result != RESULT_OK) return result;
-  work->slabs = state->lamp.slabs;
-  work->look.defect_rows = state->lamp.defect_rows;
-  work->look.gain = choose_gain(options, state->lamp.peak);
-  return RESULT_OK;
-}
-
-/* Which effects are on: the user's word, else the lamp author's, else those that are found to
- * matter. What a script reads may depend on them, so it is read again once they are known. */
-static enum result find_effects(struct bake_work *work, struct bake_state *state,
-                                struct bake_report *report, struct error *error) {
-  const char *word = work->options->effects;
-  bool automatic = !strcmp(word, "auto"), probe = !strcmp(word, "probe");
-  enum result result = RESULT_OK;
-  if (automatic) result = read_lamp(work, state, NULL, error);
-  if (result == RESULT_OK && automatic && state->lamp.needs_declared)
-    result = effects_parse(state->lamp.needs, "Canned_Needs", &state->effects, error);
-  else if (result == RESULT_OK && !automatic && !probe)
-    result = effects_parse(word, "--effects", &state->effects, error);
-  else if (result == RESULT_OK) {
-    struct effects all;
-    state->origin.probed = true;
-    result = effects_parse("all", "--effects", &all, error);
-    if (result == RESULT_OK) result = read_lamp(work, state, &all, error);
-    if (result == RESULT_OK)
-      result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
-  }
-  bool known = automatic && !state->origin.probed && !effects_any(&state->effects);
-  return result != RESULT_OK || known ? result : read_lamp(work, state, &state->effects, error);
-}
-
-static enum result prepare(struct bake_work *work, struct bake_state *state,
-                           struct bake_report *report, struct error *error) {
-  const struct bake_options *options = work->options;
-  enum result result = find_effects(work, state, report, error);
-  if (result == RESULT_OK && options->depend)
-    result = lamp_depend_check(&state->lamp.reads, state->source.path, options->output,
-                               options->depend, error);
-  if (result == RESULT_OK && options->window_auto)
-    result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
-  if (result == RESULT_OK && options->tolerance > 0)
-    result = probe_resolution(work, state->lamp.slabs, &state->origin.resolution, report, error);
-  if (result == RESULT_OK) result = choose_form(options, &state->lamp, &work->look.form, error);
-  work->look.offsets = options->centre             ? BAKE_CENTRE
-                       : bake_is_adaptive(options) ? BAKE_OWN
-                                                   : BAKE_SHARED;
+    result = slab_file_write(options->output, pages, count, options->precision, error);
   return result;
 }
 
@@ -225,6 +241,7 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   struct bake_state state = {.store = {.lock = -1}};
   *report = (struct bake_report){0};
   struct bake_work work = {.options = options,
+                           .effort = bake_effort_of(options),
                            .povray = &state.povray,
                            .source = &state.source,
                            .lamp = &state.lamp,

@@ -41,7 +41,7 @@ enum result files_write(const char *directory, const char *name, const char *tex
                         struct error *error) {
   enum result result = RESULT_OK;
   char *path = files_join(directory, name);
-  if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!path) return result_no_memory(error);
   FILE *file = fopen(path, "we");
   bool good = file && fputs(text, file) >= 0;
   int reason = errno;

@@ -9,20 +9,20 @@
 struct bake_options {
   const char *lamp, *output;
   const char *povray;           /* program */
-  bool sandbox;                 /* POV-Ray runs in one (sandbox.h) */
+  bool sandbox;                 /* POV-Ray runs in one */
   const char *const *libraries; /* Library_Path, NULL-terminated, or NULL */
   int uv[2], st[2];
-  bool uv_free, st_free;   /* with a tolerance: these are found out */
+  bool uv_free, st_free;   /* not given: a tolerance may choose others */
   int rays;                /* passes: 1 or an even number; the mean where adaptive */
   int rays_max;            /* for the noisiest tiles */
   bool centre;             /* one ray through each sample's centre */
   bool uniform;            /* the same passes everywhere */
   const char *effects;     /* "auto", "probe", "all", "none" or a list of words */
-  double effect_threshold; /* probe.h */
-  bool window_auto;        /* probe_window.h */
-  double tolerance;        /* probe_resolution.h; 0: uv[] and st[] as they are */
+  double effect_threshold; /* part of the flux that an effect must change to matter */
+  bool window_auto;        /* st windows are fitted to the light */
+  double tolerance;        /* relative RMS of irradiance that decides uv[] and st[]; 0: none */
   double for_distance;     /* in lamp units; 0: none */
-  double gain;             /* 0: from the probe */
+  double gain;             /* 0: by the brightness that the trial run shows */
   int form;                /* an enum bake_form, or -1: the cheapest */
   int jobs;
   int shard, shards; /* this process bakes batches shard, shard+shards, ... */
@@ -40,8 +40,8 @@ struct bake_report {
   double traced;         /* rays of all kinds, by POV-Ray's own count, of all batches */
   int depth;             /* the deepest trace level that POV-Ray reached */
   char cut_off[256];     /* where the light goes on beyond a page's window; or empty */
-  double error;          /* the slab's own, as slab_accuracy.h tells it; with a tolerance */
-  bool housing_left_out; /* the script's Canned_Housing needs more than itself */
+  double error;          /* the slab's own, as slab_accuracy.h estimates it; with a tolerance */
+  bool housing_left_out; /* the script's housing does not parse by itself */
 };
 
 #endif

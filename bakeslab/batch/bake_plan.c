@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A POV-Ray process costs 0.4 s of waiting whatever it renders: batches of a few seconds,
- * all of a round about equal and a multiple of BATCH_EVEN of them, so that a few processes
+/* A POV-Ray process is idle for 0.4 s whatever it renders: batches take a few seconds, those of a
+ * round cost about the same, and their number is a multiple of BATCH_EVEN, so that a few processes
  * end together. Costs are in rays; a camera costs some too, since POV-Ray finds a mesh
  * camera's face by a linear search through the meshes. */
 enum { BATCH_COST = 1 << 21, CAMERA_COST = 256, BATCH_EVEN = 4, BATCH_FRAMES = 512 };
@@ -23,12 +23,19 @@ static int longest_side(enum bake_form form) {
 
 /* ---- Tiles ---- */
 
+/* The axes that a camera covers: s and t or, transposed, u and v; and the others. k: 0 or 1. */
+static int covered_axis(const struct bake_tiles *tiles, int k) {
+  return (tiles->transposed ? SLAB_U : SLAB_S) + k;
+}
+
+static int fixed_axis(const struct bake_tiles *tiles, int k) {
+  return (tiles->transposed ? SLAB_S : SLAB_U) + k;
+}
+
 /* Width of a tile along an axis. */
 static int tile_size(const struct bake_tiles *tiles, int page, int axis) {
-  bool covered =
-      tiles->transposed ? axis == SLAB_U || axis == SLAB_V : axis == SLAB_S || axis == SLAB_T;
   int n = tiles->slabs[page].samples[axis];
-  if (!covered) return 1;
+  if (axis == fixed_axis(tiles, 0) || axis == fixed_axis(tiles, 1)) return 1;
   return n < 2 * TILE ? n : TILE;
 }
 
@@ -43,7 +50,7 @@ enum result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, 
                             bool transposed, struct error *error) {
   *tiles = (struct bake_tiles){.pages = pages, .slabs = slabs, .transposed = transposed};
   tiles->first_tile = calloc((size_t)pages + 1, sizeof *tiles->first_tile);
-  if (!tiles->first_tile) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!tiles->first_tile) return result_no_memory(error);
   for (int page = 0; page < pages; ++page) {
     int grid[SLAB_AXES];
     bake_tile_grid(tiles, page, grid);
@@ -62,6 +69,16 @@ void bake_tiles_free(struct bake_tiles *tiles) {
 
 int bake_tile_count(const struct bake_tiles *tiles) {
   return tiles->first_tile[tiles->pages];
+}
+
+bool bake_tile_next(const int grid[SLAB_AXES], int at[SLAB_AXES]) {
+  static const int fastest_first[SLAB_AXES] = {SLAB_S, SLAB_T, SLAB_U, SLAB_V};
+  for (int n = 0; n < SLAB_AXES; ++n) {
+    int axis = fastest_first[n];
+    if (++at[axis] < grid[axis]) return true;
+    at[axis] = 0;
+  }
+  return false;
 }
 
 struct bake_box bake_tile_box(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]) {
@@ -133,8 +150,8 @@ static bool add_unit(struct bake_round *round, int box, int pass) {
   return true;
 }
 
-/* The stride by which to visit `count` things, each once, so that any run of visits is spread
- * over all of them: near the golden section, and without a common factor. */
+/* A stride that visits each of `count` things once, consecutive ones far apart: near the golden
+ * section of the count, and without a common factor. */
 static size_t spreading_stride(size_t count) {
   size_t stride = (size_t)(0.6180339887498949 * (double)count);
   for (;; ++stride) {
@@ -147,9 +164,9 @@ static size_t spreading_stride(size_t count) {
   }
 }
 
-/* All passes from `from` to before `to` of the boxes from `box` on, pairs together. Batches
- * gather interreflected light each for itself, one a little brighter than another: `spread`,
- * neighbouring boxes are in different ones, and no seam runs through the slab. */
+/* All passes from `from` to before `to` of the boxes from `box` on, pairs together. Each batch
+ * samples interreflection anew and comes out a little brighter or darker than others: `spread`
+ * puts neighbouring boxes into different batches, so that no seam runs through the slab. */
 static bool add_passes(struct bake_round *round, size_t box, int from, int to, bool spread) {
   size_t count = round->box_count - box, stride = spread && count ? spreading_stride(count) : 1;
   for (int pair = from; pair < to; pair += 2)
@@ -196,7 +213,7 @@ static enum result cut_batches(struct bake_round *round, enum bake_form form, st
     struct bake_batch *last = round->batch_count ? &round->batches[round->batch_count - 1] : NULL;
     if (!last || !fits(round, last, unit, form, full)) {
       struct bake_batch *grown = grow(round->batches, round->batch_count, sizeof *grown);
-      if (!grown) return result_fail(error, RESULT_MEMORY, "out of memory");
+      if (!grown) return result_no_memory(error);
       round->batches = grown;
       last = &round->batches[round->batch_count++];
       *last = (struct bake_batch){.first = unit};
@@ -205,31 +222,6 @@ static enum result cut_batches(struct bake_round *round, enum bake_form form, st
     last->rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
   }
   return RESULT_OK;
-}
-
-/* Boxes that cover whole views (or, transposed, whole directions), as few as `most` allows. */
-static bool add_whole_boxes(const struct bake_tiles *tiles, int most, struct bake_round *round) {
-  for (int page = 0; page < tiles->pages; ++page) {
-    const int *n = tiles->slabs[page].samples;
-    int slow = tiles->transposed ? n[SLAB_T] : n[SLAB_V],
-        fast = tiles->transposed ? n[SLAB_S] : n[SLAB_U];
-    for (int y = 0; y < slow; ++y)
-      for (int x = 0; x < fast; ++x) {
-        struct bake_box box = {page, {x, y, 0, 0}, {1, 1, n[SLAB_S], n[SLAB_T]}};
-        if (tiles->transposed)
-          box = (struct bake_box){page, {0, 0, x, y}, {n[SLAB_U], n[SLAB_V], 1, 1}};
-        if (!add_parts(round, box, most)) return false;
-      }
-  }
-  return true;
-}
-
-enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
-                            struct bake_round *round, struct error *error) {
-  *round = (struct bake_round){0};
-  if (!add_whole_boxes(tiles, longest_side(form), round) || !add_passes(round, 0, 0, passes, true))
-    return result_fail(error, RESULT_MEMORY, "out of memory");
-  return cut_batches(round, form, error);
 }
 
 /* The box among those from `first` on that `box` continues downwards without growing
@@ -251,8 +243,7 @@ static size_t find_above(const struct bake_round *round, size_t first, const str
  * tiles along a row, joined with a run of the same extent in the row before. */
 static bool add_covering(const struct bake_tiles *tiles, int page, int at[SLAB_AXES],
                          const int *wanted, int passes, int most, struct bake_round *round) {
-  int x_axis = tiles->transposed ? SLAB_U : SLAB_S, y_axis = tiles->transposed ? SLAB_V : SLAB_T;
-  int grid[SLAB_AXES];
+  int x_axis = covered_axis(tiles, 0), y_axis = covered_axis(tiles, 1), grid[SLAB_AXES];
   bake_tile_grid(tiles, page, grid);
   size_t first = round->box_count;
   for (int y = 0; y < grid[y_axis]; ++y)
@@ -276,21 +267,42 @@ static bool add_covering(const struct bake_tiles *tiles, int page, int at[SLAB_A
   return true;
 }
 
-static bool add_stage(const struct bake_tiles *tiles, const int *wanted, int passes, int most,
+/* The whole image of one camera, in as few boxes as `most` allows. */
+static bool add_whole(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES], int most,
                       struct bake_round *round) {
-  int slow_axis = tiles->transposed ? SLAB_T : SLAB_V,
-      fast_axis = tiles->transposed ? SLAB_S : SLAB_U;
+  struct bake_box box = {.page = page};
+  for (int k = 0; k < 2; ++k) {
+    box.first[fixed_axis(tiles, k)] = at[fixed_axis(tiles, k)];
+    box.size[fixed_axis(tiles, k)] = 1;
+    box.size[covered_axis(tiles, k)] = tiles->slabs[page].samples[covered_axis(tiles, k)];
+  }
+  return add_parts(round, box, most);
+}
+
+/* The boxes of all cameras: of the tiles that want more than `passes`, or of all (NULL). */
+static bool add_boxes(const struct bake_tiles *tiles, const int *wanted, int passes, int most,
+                      struct bake_round *round) {
+  bool good = true;
   for (int page = 0; page < tiles->pages; ++page) {
-    int grid[SLAB_AXES];
-    bake_tile_grid(tiles, page, grid);
-    for (int y = 0; y < grid[slow_axis]; ++y)
-      for (int x = 0; x < grid[fast_axis]; ++x) {
+    const int *n = tiles->slabs[page].samples;
+    for (int y = 0; y < n[fixed_axis(tiles, 1)]; ++y)
+      for (int x = 0; x < n[fixed_axis(tiles, 0)] && good; ++x) {
         int at[SLAB_AXES] = {0};
-        at[fast_axis] = x, at[slow_axis] = y;
-        if (!add_covering(tiles, page, at, wanted, passes, most, round)) return false;
+        at[fixed_axis(tiles, 0)] = x, at[fixed_axis(tiles, 1)] = y;
+        good = wanted ? add_covering(tiles, page, at, wanted, passes, most, round)
+                      : add_whole(tiles, page, at, most, round);
       }
   }
-  return true;
+  return good;
+}
+
+enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
+                            struct bake_round *round, struct error *error) {
+  *round = (struct bake_round){0};
+  if (!add_boxes(tiles, NULL, 0, longest_side(form), round) ||
+      !add_passes(round, 0, 0, passes, true))
+    return result_no_memory(error);
+  return cut_batches(round, form, error);
 }
 
 enum result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, int pilot,
@@ -302,9 +314,9 @@ enum result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, in
   for (int passes = pilot; passes < most; passes *= 2) {
     size_t box = round->box_count;
     int to = 2 * passes < most ? 2 * passes : most;
-    if (!add_stage(tiles, wanted, passes, longest_side(form), round) ||
+    if (!add_boxes(tiles, wanted, passes, longest_side(form), round) ||
         !add_passes(round, box, passes, to, form == BAKE_MESH))
-      return result_fail(error, RESULT_MEMORY, "out of memory");
+      return result_no_memory(error);
   }
   return cut_batches(round, form, error);
 }

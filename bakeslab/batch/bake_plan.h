@@ -1,10 +1,10 @@
 /* bake_plan.h - what a bake renders: which boxes in which passes, cut into batches.
  *
- * Two rounds. The pilot shoots the first passes everywhere. The second round knows
- * the pilot's noise and spends the rest of the rays where they count: on tiles (a
- * position and a tile of directions, or the transpose) that are noisy, none on tiles
- * that are black and beside black ones. Nothing in a plan depends on the number of
- * jobs, so that several processes make the same one from the same pilot. */
+ * Two rounds. The pilot shoots the first passes everywhere. The second round spends the rest of
+ * the rays on the tiles (a position and a tile of directions, or the transpose) that the pilot
+ * shows to be noisy, and none on tiles that are black and beside black ones. Nothing in a plan
+ * depends on the number of jobs, so that several processes make the same one from the same
+ * pilot. */
 #ifndef BAKE_PLAN_H
 #define BAKE_PLAN_H
 
@@ -27,6 +27,9 @@ void bake_tiles_free(struct bake_tiles *tiles);
 int bake_tile_count(const struct bake_tiles *tiles);
 /* Tiles along each axis of a page. */
 void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES]);
+/* Moves to the next place in that grid, in the order of the tiles' numbers; false after the last.
+ */
+bool bake_tile_next(const int grid[SLAB_AXES], int at[SLAB_AXES]);
 /* The box of a tile, given its place in that grid. */
 struct bake_box bake_tile_box(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]);
 /* The number of a tile, given its place in its page's grid. */
@@ -38,7 +41,7 @@ struct bake_unit {
   int box, pass; /* one image of one camera */
 };
 
-/* Units rendered by one POV-Ray process. A batch never parts a pair of passes. */
+/* Units rendered by one POV-Ray process. Both passes of a pair are in the same batch. */
 struct bake_batch {
   size_t first, count; /* in units[] */
   size_t rays;
@@ -59,8 +62,7 @@ enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bak
 /* Passes for each tile (bake_allocate.c): `budget` rays a sample on average, between
  * pilot and most, in proportion to the tile's deviation (Neyman's allocation), each the
  * pilot times a power of two, or most. deviation[] is the standard deviation of the mean
- * of one pair of passes, by tile. A tile counts at least half as much as its noisiest
- * neighbour, since it may hold what the pilot missed. */
+ * of one pair of passes, by tile. */
 enum result bake_plan_allocate(const struct bake_tiles *tiles, const double *deviation, int pilot,
                                int budget, int most, int *passes, struct error *error);
 

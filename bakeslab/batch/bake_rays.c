@@ -44,10 +44,13 @@ static uint32_t own_shift(const struct bake_box *box, int axis) {
 
 /* Sobol's sequence: of 2^m points each of 2^m equal slices of the cell holds one, along
  * every axis, which matters since a lamp's bars and edges lie along the axes. The common
- * shift 0.010101... keeps the points a third away from the ends of their slices for every
- * m, so that the mirrored ones fill the gaps. The first two points lie on the diagonal of
- * the cell that edges behind the aperture follow (there u and s go together); the second
- * pair is mirrored along s and t, which changes nothing along any one axis. */
+ * digital shift 0.010101... puts the points a third of a slice away from its ends for every
+ * m, so that the mirrored ones fill the gaps. The first two points lie on a diagonal of
+ * the cell, along which edges behind the aperture run too (there u and s go together); so the
+ * second pair is mirrored along s and t, which changes nothing along any one axis.
+ *
+ * S. Joe and F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections",
+ * SIAM Journal on Scientific Computing 30, 2008. */
 void bake_offset(enum bake_offsets kind, const struct bake_box *box, int pass,
                  double offset[SLAB_AXES]) {
   int pair = pass / 2;

@@ -20,11 +20,11 @@ struct bake_box {
 
 int bake_box_rays(const struct bake_box *box);
 
-/* Where a pass puts its rays. SHARED: all samples have the same offset, so that positions
- * and directions stay on grids and every form of camera shoots the same rays. OWN: each
- * camera shifts the sequence for itself; where tiles stop after few passes, what these
- * missed then differs from view to view and evens out, rather than adding up where a
- * lamp's parts lie in step with the cells. */
+/* Where a pass puts its rays. CENTRE: through the centres of the cells. SHARED: all samples have
+ * the same offset, so that positions and directions stay on grids and every form of camera shoots
+ * the same rays. OWN: each camera shifts the sequence for itself; where tiles get few passes, what
+ * these miss then differs from view to view and averages out, rather than to alias with parts of
+ * the lamp that repeat like the cells. */
 enum bake_offsets { BAKE_CENTRE, BAKE_SHARED, BAKE_OWN };
 
 /* The offset of a box's rays in a pass, in cells, each in (-1/2, 1/2). */

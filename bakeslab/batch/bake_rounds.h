@@ -8,13 +8,14 @@
 struct bake_rounds {
   struct bake_tiles tiles;
   struct bake_round pilot, rest;
-  struct bake_sum *sum; /* whole, unless options->shards > 1 */
+  struct bake_sum *sum; /* whole, unless work->effort.shards > 1 */
 };
 
-/* Whether tiles get passes by their noise. */
-bool bake_is_adaptive(const struct bake_options *options);
+/* What the user asks for. */
+struct bake_effort bake_effort_of(const struct bake_options *options);
 
-/* Renders and sums work->slabs. Free the rounds with bake_rounds_free in any case. */
+/* Renders and sums work->slabs, showing progress under the label. Free the rounds with
+ * bake_rounds_free in any case. */
 enum result bake_rounds_run(const struct bake_work *work, const char *label,
                             struct bake_rounds *rounds, struct bake_report *report,
                             struct error *error);

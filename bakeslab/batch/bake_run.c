@@ -14,9 +14,9 @@
 
 #include "base/files.h"
 
-/* POV-Ray waits for itself for some 0.2 s before its first pixel and after its last one:
- * the next process may start when one has no more than OVERLAP seconds to render. */
-static const double OVERLAP = 0.4;
+/* A POV-Ray process is idle for some 0.2 s before its first pixel and after its last one: the next
+ * may start when one has no more than these seconds left to render. */
+static const double overlap = 0.4;
 
 enum process_state { IDLE, RENDERING, CLOSING };
 
@@ -68,13 +68,14 @@ static enum result read_batch(struct run *run, size_t batch, struct error *error
   job.directory = path;
   enum result result = path ? bake_scene_read(&work->look, run->round, &run->round->batches[batch],
                                               &job, run->rgb, error)
-                            : result_fail(error, RESULT_MEMORY, "out of memory");
+                            : result_no_memory(error);
   free(path);
   free(text);
   return result;
 }
 
-/* Takes note of a finished batch, which run->rgb holds, and sums what has its turn. */
+/* Marks a batch, which run->rgb holds, as finished, and adds to the sum in the order of the
+ * batches, as far as they are finished. */
 static enum result take_batch(struct run *run, size_t batch, struct error *error) {
   run->rays_done += run->round->batches[batch].rays;
   run->ready[batch] = true;
@@ -91,8 +92,8 @@ static enum result take_batch(struct run *run, size_t batch, struct error *error
 
 /* ---- Starting and ending processes ---- */
 
-/* Removes what a failed process has left, or nothing where its folder has moved to the
- * store, and frees the slot. */
+/* Frees the slot of a process; `remove`: with its scratch folder, which has else moved to the
+ * store. */
 static void release(struct process *process, bool remove) {
   if (remove && process->scratch) files_remove_tree(process->scratch);
   free(process->scratch);
@@ -105,8 +106,8 @@ static enum result start_batch(struct run *run, struct process *process, size_t 
   const struct bake_work *work = run->work;
   *process = (struct process){.batch = batch};
   char *text = batch_text(work, run->round, batch, &process->job, process->key);
-  enum result result = text ? bake_store_scratch(work->store, &process->scratch, error)
-                            : result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result =
+      text ? bake_store_scratch(work->store, &process->scratch, error) : result_no_memory(error);
   process->job.directory = process->scratch;
   process->job.library = run->library.paths;
   if (result == RESULT_OK) result = lamp_source_link(work->source, process->scratch, error);
@@ -122,8 +123,9 @@ static enum result start_batch(struct run *run, struct process *process, size_t 
   return result;
 }
 
-/* POV-Ray dies of a full disk without saying so; another reason may be the true one. What it
- * did not finish, some 26 bytes a ray, it may have removed. */
+/* POV-Ray dies of a full disk without saying so. Where the disk has no room for what it was about
+ * to write, some 26 bytes a ray, since it may have removed the rest, that is taken for the
+ * reason, and what it said is put in brackets. */
 static enum result explain_full_disk(const struct bake_store *store, size_t rays,
                                      enum result result, struct error *error) {
   struct statvfs disk;
@@ -144,7 +146,7 @@ static void count_work(struct run *run, const char *directory) {
   run->depth = fmax(run->depth, povray_statistic(directory, "Max Level:"));
 }
 
-/* Photons that miss their targets are silent in POV-Ray, and lose the light. */
+/* POV-Ray says nothing of photons that miss their targets, and their light is lost. */
 static enum result check_photons(const struct run *run, const struct process *process,
                                  struct error *error) {
   enum { TOO_FEW = 1000 };
@@ -202,7 +204,7 @@ static bool is_verified(struct run *run, size_t batch, const char *key) {
   return whole;
 }
 
-/* Moves `next` to a batch that the store lacks. */
+/* Moves run->next on to a batch that the store lacks. */
 static enum result skip_found(struct run *run, struct bake_report *report, struct error *error) {
   for (; run->next < run->count; ++run->next) {
     size_t batch = run->order[run->next];
@@ -227,7 +229,7 @@ static int count_rendering(const struct run *run, double *rays) {
     struct process *process = &run->processes[n];
     if (process->state == IDLE) continue;
     double part = povray_progress(&process->job);
-    if (part > 0 && (progress_now() - process->start) * (1 - part) / part < OVERLAP)
+    if (part > 0 && (progress_now() - process->start) * (1 - part) / part < overlap)
       process->state = CLOSING;
     rendering += process->state == RENDERING;
     *rays += part * (double)run->round->batches[process->batch].rays;
@@ -287,10 +289,10 @@ static enum result loop(struct run *run, const char *label, struct bake_report *
 
 /* This shard's batches first, then the others'. Returns the rays of the largest. */
 static size_t put_in_order(struct run *run) {
-  size_t largest = 1, shards = (size_t)run->work->options->shards;
+  size_t largest = 1, shards = (size_t)run->work->effort.shards;
   for (size_t turn = 0; turn < (run->sum ? shards : 1); ++turn)
-    for (size_t n = ((size_t)run->work->options->shard + turn) % shards;
-         n < run->round->batch_count; n += shards) {
+    for (size_t n = ((size_t)run->work->effort.shard + turn) % shards; n < run->round->batch_count;
+         n += shards) {
       run->order[run->count++] = n;
       run->rays_all += run->round->batches[n].rays;
       if (run->round->batches[n].rays > largest) largest = run->round->batches[n].rays;
@@ -310,8 +312,7 @@ enum result bake_run(const struct bake_work *work, const struct bake_round *roun
   report->batches += (int)run.count;
   lamp_source_library(work->source, &run.library);
   enum result result = RESULT_OK;
-  if (!run.processes || !run.order || !run.ready || !run.rgb)
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!run.processes || !run.order || !run.ready || !run.rgb) result = result_no_memory(error);
   progress_start(&run.progress, work->options->quiet, 0);
   if (result == RESULT_OK) result = loop(&run, label, report, error);
   if (run.processes) kill_all(&run);

@@ -8,9 +8,18 @@
 #include "batch/bake_store.h"
 #include "batch/bake_sum.h"
 
+/* How many rays samples get, and which batches this process renders. */
+struct bake_effort {
+  int rays;          /* passes: 1 or an even number; the mean where adaptive */
+  int rays_max;      /* for the noisiest tiles, where adaptive */
+  bool adaptive;     /* tiles get passes by their noise; else all get the same */
+  int shard, shards; /* this process renders batches shard, shard + shards, ... */
+};
+
 /* All that a round needs besides itself; nothing is owned. */
 struct bake_work {
   const struct bake_options *options;
+  struct bake_effort effort;
   const struct povray *povray;
   const struct lamp_source *source;
   const struct lamp *lamp;

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a mesh_camera image. Narrow images keep neighbouring rays in POV-Ray's 32 x 32
- * pixel blocks close together; a mesh's faces simply run on from row to row. */
+#include "slab/plane.h"
+
+/* Of a mesh_camera image, in pixels. The faces of a mesh run on from row to row; in a narrow image
+ * the rays of one of POV-Ray's blocks, 32 x 32 pixels, are close together. */
 enum { IMAGE_WIDTH = 256 };
 
 static const struct bake_box *unit_box(const struct bake_round *round, size_t unit) {
@@ -18,22 +20,21 @@ static void print_vector(FILE *out, const double vector[3], double factor) {
   fprintf(out, "<%.17g,%.17g,%.17g>", factor * vector[0], factor * vector[1], factor * vector[2]);
 }
 
-/* ---- Brightness ---- */
+/* ---- Gain ---- */
 
-/* The whole picture brightened: every camera looks at the lamp through a filter that
- * multiplies radiance. It lies just outside each uv plane, and the cameras just outside
- * of it, so that nothing in the lamp can touch it. Only cameras see it, and only from
- * outside: rays that leave an open lamp through another slab are multiplied already.
- * POV-Ray ignores what is nearer to a camera than 1e-4, its MIN_ISECT_DEPTH. */
+/* Every camera looks at the lamp through a filter that multiplies radiance by the gain. It lies
+ * just outside each uv plane, and the cameras just outside of it, so that nothing in the lamp can
+ * touch it. It works on camera rays only, and only from outside: rays that leave an open lamp
+ * through another slab are multiplied already. POV-Ray ignores what is nearer to a camera than
+ * 1e-4, its MIN_ISECT_DEPTH. */
 static double camera_distance(const struct slab *slab) {
-  double length = slab_spacing(slab, SLAB_U) * slab->samples[SLAB_U];
-  return 2e-5 * fmax(10, length);
+  return 2e-5 * fmax(10, plane_edge(slab, SLAB_U));
 }
-static const double filter_part = 0.2; /* of that distance */
+static const double filter_distance = 0.2; /* of the camera's */
 
-/* Half an edge of the filter, so that every ray of a camera behind it passes. */
+/* Half an edge of the filter, so that every ray of a camera behind it passes through. */
 static double filter_reach(const struct slab *slab, int axis) {
-  double length = slab_spacing(slab, axis) * slab->samples[axis];
+  double length = plane_edge(slab, axis);
   const double *window = slab->st_window + 2 * axis;
   double slope = fmax(fabs(window[0]), fabs(window[1])) + 0.5 * slab_kappa(slab) * length;
   return 0.51 * length + 2 * camera_distance(slab) * slope;
@@ -50,20 +51,20 @@ static bool is_mirrored(const struct slab *slab) {
 }
 
 static void print_filter(FILE *out, double gain, const struct slab *slab) {
-  /* POV-Ray gives the texture to the side that this order, along u and v, shows as u x v. */
+  /* POV-Ray puts the texture on the side of u x v, for corners in this order. */
   static const double at[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
   const char *sides[2] = {"texture", "interior_texture"};
   bool mirrored = is_mirrored(slab);
   double reach[2];
   for (int axis = SLAB_U; axis <= SLAB_V; ++axis)
-    reach[axis] = filter_reach(slab, axis) / (slab_spacing(slab, axis) * slab->samples[axis]);
+    reach[axis] = filter_reach(slab, axis) / plane_edge(slab, axis);
   fputs("polygon { 5, ", out);
   for (int c = 0; c < 5; ++c) {
     double corner[3];
     for (int axis = 0; axis < 3; ++axis)
       corner[axis] = slab->center[axis] + at[c][0] * reach[0] * slab->u[axis] +
                      at[c][1] * reach[1] * slab->v[axis] +
-                     filter_part * camera_distance(slab) * slab->normal[axis];
+                     filter_distance * camera_distance(slab) * slab->normal[axis];
     print_vector(out, corner, 1);
   }
   for (int side = 0; side < 2; ++side)
@@ -77,7 +78,7 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
   fputs("// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version 3.7;\n",
         out);
   effects_declare(look->effects, out);
-  /* A finer pretrace than every 16th pixel costs much and gains 0.01 %. */
+  /* A radiosity pretrace finer than every 16th pixel costs much and changes 0.01 %. */
   if (look->effects->setting[INTERREFLECTION])
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
             job->height > job->width ? job->height : job->width);
@@ -110,7 +111,7 @@ static void print_matrix(FILE *out, const struct slab *slab, const struct bake_c
   fputs("> }\n", out);
 }
 
-/* One mesh_camera; each shape of box has its own mesh of directions. */
+/* One mesh_camera; boxes of the same size share a mesh of directions. */
 static void print_mesh_camera(FILE *out, const struct bake_look *look, const struct slab *slabs,
                               const struct bake_round *round, const struct bake_batch *batch) {
   int width = 0, height = 0;

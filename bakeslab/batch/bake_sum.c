@@ -23,7 +23,7 @@ enum result bake_sum_new(const struct bake_tiles *tiles, int most_passes, struct
                          struct error *error) {
   struct bake_sum *sum = calloc(1, sizeof *sum);
   *out = sum;
-  if (!sum) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!sum) return result_no_memory(error);
   sum->tiles = tiles;
   sum->most_pairs = (most_passes + 1) / 2;
   sum->pages = calloc((size_t)tiles->pages, sizeof *sum->pages);
@@ -48,10 +48,6 @@ void bake_sum_free(struct bake_sum *sum) {
   free(sum);
 }
 
-static double luminance(const float rgb[3]) {
-  return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
-}
-
 /* cos(theta) d(omega) dA of a sample's cell, up to the kernel's change within it. */
 static double cell_weight(const struct slab *slab, const int at[SLAB_AXES]) {
   double kappa = slab_kappa(slab), position[SLAB_AXES], weight = 1;
@@ -72,10 +68,10 @@ static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int
   size_t row = (size_t)at[SLAB_V] * (size_t)n[SLAB_T] + (size_t)at[SLAB_T];
   size_t column = (size_t)at[SLAB_U] * (size_t)n[SLAB_S] + (size_t)at[SLAB_S];
   struct cell *cell = &sum->pages[page][row * (size_t)slab_width(slab) + column];
-  double y = luminance(rgb);
+  double y = slab_luminance(rgb);
   for (int c = 0; c < 3; ++c) cell->rgb[c] += (double)rgb[c];
   if (mirrored) {
-    y = 0.5 * (y + luminance(mirrored));
+    y = 0.5 * (y + slab_luminance(mirrored));
     for (int c = 0; c < 3; ++c) cell->rgb[c] += (double)mirrored[c];
   }
   cell->y += y;
@@ -123,48 +119,28 @@ static double variance(const struct cell *cell) {
   return v > 0 ? v : 0;
 }
 
-/* Calls back for every sample with its place. */
-typedef void visit(void *context, int page, const int at[SLAB_AXES], const struct cell *cell);
-
-static void for_each(const struct bake_sum *sum, visit *call, void *context) {
-  for (int page = 0; page < sum->tiles->pages; ++page) {
-    const int *n = sum->tiles->slabs[page].samples;
-    const struct cell *cell = sum->pages[page];
-    int at[SLAB_AXES];
-    for (at[1] = 0; at[1] < n[1]; ++at[1])
-      for (at[3] = 0; at[3] < n[3]; ++at[3])
-        for (at[0] = 0; at[0] < n[0]; ++at[0])
-          for (at[2] = 0; at[2] < n[2]; ++at[2]) call(context, page, at, cell++);
-  }
-}
-
-struct tile_scatter {
-  const struct bake_tiles *tiles;
-  double *sum;
-  int *count;
-};
-
-static void add_variance(void *context, int page, const int at[SLAB_AXES],
-                         const struct cell *cell) {
-  struct tile_scatter *scatter = context;
-  int tile = bake_tile_at(scatter->tiles, page, at);
-  scatter->sum[tile] += variance(cell);
-  ++scatter->count[tile];
-}
-
 enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, struct error *error) {
   size_t tiles = (size_t)bake_tile_count(sum->tiles);
-  struct tile_scatter scatter = {sum->tiles, deviation, calloc(tiles, sizeof(int))};
-  if (!scatter.count) return result_fail(error, RESULT_MEMORY, "out of memory");
+  int *count = calloc(tiles, sizeof *count);
+  if (!count) return result_no_memory(error);
   for (size_t n = 0; n < tiles; ++n) deviation[n] = 0;
-  for_each(sum, add_variance, &scatter);
-  for (size_t n = 0; n < tiles; ++n) deviation[n] = sqrt(deviation[n] / scatter.count[n]);
-  free(scatter.count);
+  for (int page = 0; page < sum->tiles->pages; ++page) {
+    const struct slab *slab = &sum->tiles->slabs[page];
+    for (size_t n = 0; n < slab_sample_count(slab); ++n) {
+      int at[SLAB_AXES];
+      slab_locate(slab, n, at);
+      int tile = bake_tile_at(sum->tiles, page, at);
+      deviation[tile] += variance(&sum->pages[page][n]);
+      ++count[tile];
+    }
+  }
+  for (size_t n = 0; n < tiles; ++n) deviation[n] = sqrt(deviation[n] / count[n]);
+  free(count);
   return RESULT_OK;
 }
 
-/* All samples of a pair share its offset, so that errors of tiles are correlated:
- * residuals are summed over tiles before they are squared. */
+/* Relative. All samples of a pair share its offset, so that errors of tiles are correlated:
+ * residuals are summed over tiles before they are squared. NAN without memory. */
 static double flux_error(const struct bake_sum *sum) {
   double total = 0, squares = 0;
   size_t most = (size_t)sum->most_pairs;
@@ -184,42 +160,23 @@ static double flux_error(const struct bake_sum *sum) {
   return total != 0 ? sqrt(squares) / fabs(total) : 0;
 }
 
-struct noise_sums {
-  double squares, luminance, rays, samples;
-  bool known;
-};
-
-static void add_noise(void *context, int page, const int at[SLAB_AXES], const struct cell *cell) {
-  struct noise_sums *sums = context;
-  (void)page, (void)at;
-  sums->squares += variance(cell) / cell->pairs;
-  sums->luminance += cell->y / cell->pairs;
-  sums->rays += cell->rays;
-  sums->samples += 1;
-  sums->known &= cell->pairs > 1;
-}
-
 void bake_sum_noise(const struct bake_sum *sum, double gain, struct bake_noise *noise) {
-  struct noise_sums sums = {.known = true};
-  for_each(sum, add_noise, &sums);
-  *noise = (struct bake_noise){.known = sums.known,
-                               .mean = sums.luminance / sums.samples / gain,
-                               .rays = sums.rays / sums.samples};
-  if (!sums.known) return;
-  noise->sample = sqrt(sums.squares / sums.samples) / gain;
+  double squares = 0, luminance = 0, rays = 0, samples = 0;
+  *noise = (struct bake_noise){.known = true};
+  for (int page = 0; page < sum->tiles->pages; ++page)
+    for (size_t n = 0; n < slab_sample_count(&sum->tiles->slabs[page]); ++n) {
+      const struct cell *cell = &sum->pages[page][n];
+      squares += variance(cell) / cell->pairs;
+      luminance += cell->y / cell->pairs;
+      rays += cell->rays;
+      samples += 1;
+      noise->known &= cell->pairs > 1;
+    }
+  noise->mean = luminance / samples / gain;
+  noise->rays = rays / samples;
+  if (!noise->known) return;
+  noise->sample = sqrt(squares / samples) / gain;
   noise->flux = flux_error(sum);
-}
-
-struct finish {
-  struct slab *pages;
-  double gain;
-};
-
-static void finish_sample(void *context, int page, const int at[SLAB_AXES],
-                          const struct cell *cell) {
-  const struct finish *finish = context;
-  float *rgb = slab_at(&finish->pages[page], at[0], at[1], at[2], at[3]);
-  for (int c = 0; c < 3; ++c) rgb[c] = (float)(cell->rgb[c] / cell->rays / finish->gain);
 }
 
 enum result bake_sum_finish(const struct bake_sum *sum, double gain, struct slab *pages,
@@ -227,8 +184,10 @@ enum result bake_sum_finish(const struct bake_sum *sum, double gain, struct slab
   for (int page = 0; page < sum->tiles->pages; ++page) {
     enum result result = slab_alloc(&pages[page], error);
     if (result != RESULT_OK) return result;
+    const struct cell *cell = sum->pages[page];
+    float *rgb = pages[page].rgb;
+    for (size_t n = 0; n < slab_sample_count(&pages[page]); ++n, ++cell)
+      for (int c = 0; c < 3; ++c) *rgb++ = (float)(cell->rgb[c] / cell->rays / gain);
   }
-  struct finish finish = {pages, gain};
-  for_each(sum, finish_sample, &finish);
   return RESULT_OK;
 }

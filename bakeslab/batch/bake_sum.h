@@ -1,10 +1,10 @@
-/* bake_sum.h - sums the passes of a bake into samples and tells their noise.
+/* bake_sum.h - sums the passes of a bake into samples and estimates their noise.
  *
  * POV-Ray's pixels are half floats: sums of them are exact in double precision, so
  * that their order does not matter. Batches must come in order all the same, since sums
- * of squares are rounded. Noise is estimated from the scatter of the pairs' means as if
+ * of squares are rounded. Noise is estimated from the variance of the pairs' means as if
  * their offsets were random. They fill the cell more evenly than that, so the estimate is
- * on the high side; from the two pairs of four rays it is a rough one either way. */
+ * rather too high; from the two pairs of four rays it is a rough one. */
 #ifndef BAKE_SUM_H
 #define BAKE_SUM_H
 

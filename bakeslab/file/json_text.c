@@ -21,7 +21,7 @@ unsigned long json_mark(void) {
 }
 
 enum result json_whole(unsigned long mark, struct error *error) {
-  return lost == mark ? RESULT_OK : result_fail(error, RESULT_MEMORY, "out of memory");
+  return lost == mark ? RESULT_OK : result_no_memory(error);
 }
 
 enum result json_text(const json_t *value, unsigned long mark, size_t flags, char **text,
@@ -31,7 +31,7 @@ enum result json_text(const json_t *value, unsigned long mark, size_t flags, cha
   if (result == RESULT_OK && *text) return RESULT_OK;
   free(*text);
   *text = NULL;
-  return result_fail(error, RESULT_MEMORY, "out of memory");
+  return result_no_memory(error);
 }
 
 enum result json_read(const char *text, size_t flags, json_t **value, struct error *error) {

@@ -1,5 +1,5 @@
-/* effects.h - what of a lamp is simulated: the words of canned.inc's Canned_Needs and of
- * `bakeslab bake --effects`, and how far each is taken. */
+/* effects.h - the effects of a lamp that are simulated, and how far each is taken: the words of
+ * canned.inc's Canned_Needs and of `bakeslab bake --effects`. */
 #ifndef EFFECTS_H
 #define EFFECTS_H
 
@@ -18,7 +18,7 @@ struct effects {
 
 const char *effect_word(enum effect effect);
 
-/* Settings that are worth trying, one after the other, up to a 0. */
+/* The settings to try, one after the other, up to a 0. */
 const int *effect_ladder(enum effect effect);
 
 /* "all", "none", or words separated by blanks or commas, each alone, at canned.inc's own

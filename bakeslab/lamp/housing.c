@@ -269,7 +269,7 @@ enum result housing_parses(const struct povray *povray, const char *housing, con
                "#version 3.7;\n#macro Housing()\n%s\n#end\nobject { Housing() }\n"
                "camera { location -z direction z }\n",
                housing) < 0)
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+    return result_no_memory(error);
   files_remove_tree(directory);
   enum result result = files_make_directory(directory, error);
   if (result == RESULT_OK) result = files_write(directory, "scene.pov", scene, error);

@@ -1,9 +1,9 @@
-/* lamp.h - a lamp script and what it says of itself (canned.inc's macros).
+/* lamp.h - a lamp script and what it declares by canned.inc's macros.
  *
- * One small POV-Ray run, the probe, tells all that a bake must know first: the
- * slabs and effects that the script declares, the files that it reads, how
- * bright the lamp is, and whether this POV-Ray's mesh_camera works and with which
- * row defect (include-pov/canned_bake.inc). */
+ * A trial run of the script by POV-Ray, lamp_try, tells all that a bake must know first: the
+ * slabs and effects that the script declares, the files that it reads, how bright the lamp is, and
+ * whether this POV-Ray's mesh_camera works and with which row defect
+ * (include-pov/canned_bake.inc). */
 #ifndef LAMP_H
 #define LAMP_H
 
@@ -16,8 +16,9 @@
 
 enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24 };
 
-/* What a scene's folder calls the script, and the preloaded list-maker, whose path may
- * hold blanks, which LD_PRELOAD takes for separators. */
+/* The names, in a scene's folder, of the links to the script and to the preloaded library that
+ * lists the files read. LD_PRELOAD takes blanks for separators, and the library's own path may
+ * hold some. */
 #define LAMP_SCRIPT "canned-lamp.pov"
 #define LAMP_READS "canned-reads.so"
 
@@ -27,7 +28,7 @@ struct lamp_source {
   char *path;                              /* the script */
   char *folder;                            /* its folder: relative includes are found there */
   char *include_pov;                       /* canned.inc's folder */
-  char *reads;                             /* the preloaded list-maker of files read */
+  char *reads;                             /* the library that lists the files read */
   char *libraries[LAMP_MAX_LIBRARIES + 1]; /* the user's -L folders */
 };
 
@@ -38,13 +39,13 @@ struct lamp {
   char needs[256];         /* of Canned_Needs */
   struct lamp_reads reads; /* every file that the script reads */
   bool bulbs;              /* Canned_Bulb was called */
-  double peak;             /* brightest radiance seen by the probe, any channel */
+  double peak;             /* brightest radiance that the trial run saw, any channel */
   bool own_radiosity;      /* the script turns radiosity on by itself */
   bool mesh_camera;        /* works */
   int defect_rows;         /* image rows to skip: 1 with POV-Ray 3.7's defect */
 };
 
-/* Resolves the script and finds include-pov and the list-maker beside the
+/* Resolves the script and finds include-pov and the preloaded library beside the
  * running program. Free it with lamp_source_free in any case. */
 enum result lamp_source_open(const char *script, const char *const *libraries,
                              struct lamp_source *source, struct error *error);
@@ -71,8 +72,8 @@ void lamp_source_rename(const struct lamp_source *source, struct error *error);
 enum result lamp_declarations(char *text, const char *script, struct lamp *lamp,
                               struct error *error);
 
-/* Runs the probe in `directory`, which is made if need be, and removed. `effects` are those
- * that the script is to find on; NULL leaves that to its Canned_Needs. `stop` as for
+/* Runs the script in `directory`, which is made if need be, and removed. `effects` are those that
+ * are on; NULL leaves that to its Canned_Needs. `stop` as for
  * povray_run. Free the lamp with lamp_free in any case. */
 enum result lamp_try(const struct povray *povray, const struct lamp_source *source,
                      const char *directory, const struct effects *effects,

@@ -31,7 +31,7 @@ static bool read_text(const char *value, char *text, size_t size) {
   return length < size;
 }
 
-/* A bulb may be too small for the probe to see. */
+/* A bulb may be too small for the trial run's rays to hit. */
 static bool read_bulb(const char *value, struct lamp *lamp) {
   double rgb[3];
   if (!read_numbers(value, 3, rgb)) return false;
@@ -72,7 +72,7 @@ static enum result add_slab(struct lamp *lamp, struct error *error) {
   if (lamp->slab_count == MOST_SLABS)
     return result_fail(error, RESULT_BAD, "declares more than %d slabs", MOST_SLABS);
   struct slab *grown = realloc(lamp->slabs, (size_t)(lamp->slab_count + 1) * sizeof *grown);
-  if (!grown) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!grown) return result_no_memory(error);
   lamp->slabs = grown;
   grown[lamp->slab_count] = slab_default();
   for (int axis = 0; axis < SLAB_AXES; ++axis) grown[lamp->slab_count].samples[axis] = 1;
@@ -114,10 +114,8 @@ static enum result finish(struct lamp *lamp, const struct slab *common, struct e
     if (slab->st_distance == 0) slab->st_distance = INFINITY;
     double length = hypot(hypot(slab->normal[0], slab->normal[1]), slab->normal[2]);
     for (int axis = 0; axis < 3; ++axis) slab->normal[axis] /= length;
-    struct error reason;
-    enum result result = slab_check(slab, &reason);
-    if (result != RESULT_OK)
-      return result_fail(error, result, "Canned_Slab %d: %s", n + 1, reason.text);
+    enum result result = slab_check(slab, error);
+    if (result != RESULT_OK) return result_at(result, error, "Canned_Slab %d", n + 1);
   }
   return RESULT_OK;
 }
@@ -125,10 +123,9 @@ static enum result finish(struct lamp *lamp, const struct slab *common, struct e
 enum result lamp_declarations(char *text, const char *script, struct lamp *lamp,
                               struct error *error) {
   struct slab common = slab_default();
-  struct error reason;
   enum result result = RESULT_OK;
   for (char *line; result == RESULT_OK && (line = strsep(&text, "\n"));)
-    if (*line) result = read_line(line, lamp, &common, &reason);
-  if (result == RESULT_OK) result = finish(lamp, &common, &reason);
-  return result != RESULT_OK ? result_fail(error, result, "%s: %s", script, reason.text) : RESULT_OK;
+    if (*line) result = read_line(line, lamp, &common, error);
+  if (result == RESULT_OK) result = finish(lamp, &common, error);
+  return result_at(result, error, "%s", script);
 }

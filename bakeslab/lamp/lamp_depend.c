@@ -91,7 +91,7 @@ static enum result prepare(const struct lamp_reads *reads, const char *script, c
   FILE *rule = result != RESULT_OK ? NULL : open_memstream(&text, &size);
   if (rule) result = put_rule(rule, reads, script, target, error);
   bool whole = rule && fclose(rule) == 0 && text;
-  if (!whole && result == RESULT_OK) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!whole && result == RESULT_OK) result = result_no_memory(error);
   if (result == RESULT_OK) result = output_begin(output, path, error);
   if (result == RESULT_OK && output_write(output, text, size, 0) != 0)
     result = result_fail(error, RESULT_IO, "%s: cannot be written: %m", path);

@@ -23,7 +23,7 @@ static enum result hash_file(const char *path, XXH128_hash_t *hash, struct error
     result = result_fail(error, RESULT_IO, "%s: cannot be read again after POV-Ray read it: %s",
                          path, strerror(errno));
   else if (!state)
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+    result = result_no_memory(error);
   else
     XXH3_128bits_reset(state);
   char block[65536];
@@ -50,7 +50,7 @@ static enum result add_path(struct lamp_reads *reads, const char *path, struct e
   char *copy = strdup(path);
   if (!grown || !copy) {
     free(copy);
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+    return result_no_memory(error);
   }
   struct lamp_read *read = &reads->files[reads->count++];
   *read = (struct lamp_read){.path = copy};
@@ -74,14 +74,13 @@ enum result lamp_reads_collect(const char *directory, const char *script, const 
   char *own = realpath(directory, NULL);
   char *text = own ? files_read(directory, "reads.txt") : NULL;
   enum result result = RESULT_OK;
-  if (!own || (!text && errno == ENOMEM))
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!own || (!text && errno == ENOMEM)) result = result_no_memory(error);
   char *rest = text;
   for (char *path; own && result == RESULT_OK && rest && *rest && (path = strsep(&rest, "\n"));)
     if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&
         !has_path(reads, path))
       result = add_path(reads, path, error);
-  /* A statically linked POV-Ray would ignore the preloaded list-maker. */
+  /* A statically linked POV-Ray ignores preloaded libraries. */
   if (result == RESULT_OK && !has_path(reads, script))
     result = result_fail(error, RESULT_IO,
                          "%s: cannot find out which files the script reads, since this POV-Ray "

@@ -1,6 +1,5 @@
 /* lamp_reads.h - the files that a lamp script reads, and whether they are still the same.
- *
- * A list-maker preloaded into POV-Ray writes their paths (preload/reads.c). */
+ * A library preloaded into POV-Ray lists their paths (preload/reads.c). */
 #ifndef LAMP_READS_H
 #define LAMP_READS_H
 

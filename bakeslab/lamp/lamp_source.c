@@ -38,7 +38,7 @@ enum result lamp_source_open(const char *script, const char *const *libraries,
   char *copy = strdup(source->path);
   source->folder = copy ? strdup(dirname(copy)) : NULL;
   free(copy);
-  if (!source->folder) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!source->folder) return result_no_memory(error);
   source->include_pov = beside_program("share/canned/include-pov");
   source->reads = beside_program("lib/canned/reads.so");
   if (!source->include_pov || !source->reads)
@@ -79,7 +79,7 @@ static const char *library_link(int n, char name[LAMP_LINK_SIZE]) {
 static enum result make_link(const char *directory, const char *name, const char *target,
                              struct error *error) {
   char *path = files_join(directory, name);
-  if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!path) return result_no_memory(error);
   enum result result = RESULT_OK;
   if (symlink(target, path) != 0)
     result = result_fail(error, RESULT_IO, "%s: cannot make this link: %s", path, strerror(errno));

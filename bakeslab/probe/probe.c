@@ -1,4 +1,16 @@
-/* probe.c - see probe.h. */
+/* probe.c - which effects a lamp needs, by small bakes.
+ *
+ * 1. Start without effects. Try each in turn, from the cheapest to the most expensive, on top of
+ *    those that matter so far, at the first step of its ladder (effects.h).
+ * 2. Bake a few directions at 4 x 4 positions with and without it: the same rays, so that noise
+ *    cancels in the difference.
+ * 3. The change of flux is a ratio estimate; its standard error is that of four interleaved
+ *    subsamples (Cochran 1977, chapter 6). While the threshold is within two standard errors,
+ *    double the directions along an axis.
+ * 4. An effect that matters goes one step up its ladder, and again, until a step does not matter
+ *    or there is none.
+ *
+ * W. G. Cochran, "Sampling Techniques", third edition, 1977. */
 #include "probe/probe.h"
 
 #include <math.h>
@@ -8,24 +20,19 @@
 
 #include "probe/probe_bake.h"
 
-/* Directions along an axis of a take, before it is refined. Interreflection and extended
- * sources are dear: their takes are sparse. */
+/* Positions and directions along an axis of a small bake; expensive effects start with SPARSE
+ * directions, and no bake has more than MOST_DIRECTIONS. */
 enum { POSITIONS = 4, DENSE = 20, SPARSE = 10, MOST_DIRECTIONS = 40 };
 
-/* ---- Comparing ---- */
+/* ---- 2. and 3. What an effect changes ---- */
 
-static double luminance(const float *rgb) {
-  return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
-}
-
-/* Flux by four parts of the rays, every other position along u and v: each part tells all of
- * the light, and their scatter how well. */
+/* The subsamples: every other position along u and v. */
 enum { PARTS = 4 };
 
-static void sum_parts(const struct probe_bake *take, double flux[PARTS]) {
+static void sum_parts(const struct probe_bake *bake, double flux[PARTS]) {
   for (int part = 0; part < PARTS; ++part) flux[part] = 0;
-  for (int n = 0; n < take->count; ++n) {
-    const struct slab *page = &take->pages[n];
+  for (int n = 0; n < bake->count; ++n) {
+    const struct slab *page = &bake->pages[n];
     const int *samples = page->samples;
     const float *sample = page->rgb;
     double area = slab_spacing(page, SLAB_S) * slab_spacing(page, SLAB_T) *
@@ -34,9 +41,9 @@ static void sum_parts(const struct probe_bake *take, double flux[PARTS]) {
       for (int x = 0; x < slab_width(page); ++x, sample += 3) {
         double s = slab_position(page, SLAB_S, x % samples[SLAB_S]);
         double t = slab_position(page, SLAB_T, y % samples[SLAB_T]);
-        double r = 1 + s * s + t * t; /* near enough with a finite st plane too */
+        double r = 1 + s * s + t * t; /* close enough with a finite st plane too */
         flux[2 * (y / samples[SLAB_T] % 2) + x / samples[SLAB_S] % 2] +=
-            luminance(sample) * area / (r * r);
+            slab_luminance(sample) * area / (r * r);
       }
   }
 }
@@ -46,20 +53,20 @@ static double ratio(double part, double whole) {
   return whole != 0 ? part / whole : INFINITY;
 }
 
-/* The light of a page by direction (all positions together, as seen from afar) and by
- * position (all directions, as seen close up), one after the other. */
+/* Sums over the other two axes: the light of a page by direction, as seen from afar, and by
+ * position, as seen close up. */
 static void sum_marginals(const struct slab *page, double *by_direction, double *by_position) {
   const int *n = page->samples;
   const float *sample = page->rgb;
   for (int y = 0; y < slab_height(page); ++y)
     for (int x = 0; x < slab_width(page); ++x, sample += 3) {
-      double light = luminance(sample);
+      double light = slab_luminance(sample);
       by_direction[y % n[SLAB_T] * n[SLAB_S] + x % n[SLAB_S]] += light;
       by_position[y / n[SLAB_T] * n[SLAB_U] + x / n[SLAB_S]] += light;
     }
 }
 
-/* Adds to the sums of squares of what differs and of all. */
+/* Adds to the sums of squares of the difference b - a and of b. */
 static void add_squares(const double *a, const double *b, size_t count, double sums[2]) {
   for (size_t k = 0; k < count; ++k) {
     sums[0] += (b[k] - a[k]) * (b[k] - a[k]);
@@ -105,24 +112,21 @@ static bool matters(const struct probe_change *change, double threshold) {
   return fabs(change->flux) > threshold || change->rms > 2 * threshold;
 }
 
-/* ---- Deciding ---- */
-
-static bool is_dear(enum effect effect) {
+static bool is_expensive(enum effect effect) {
   return effect == INTERREFLECTION || effect == EXTENDED_SOURCE;
 }
 
-/* Whether an effect is known to change nothing: rays that end before canned.inc's ordinary
- * trace level, or no Canned_Bulb to extend. */
-static bool is_idle(const struct bake_work *work, enum effect effect,
-                    const struct probe_bake *without) {
+/* Whether an effect is known to change nothing: all rays end before canned.inc's ordinary trace
+ * level, or there is no Canned_Bulb to extend. */
+static bool changes_nothing(const struct bake_work *work, enum effect effect,
+                            const struct probe_bake *without) {
   enum { ORDINARY_LEVEL = 12 };
   return (effect == DEEP_TRACE && without->depth < ORDINARY_LEVEL) ||
          (effect == EXTENDED_SOURCE && !work->lamp->bulbs);
 }
 
-/* What an effect, further in `more` than in `less`, changes, and the trace level reached. The
- * same rays show both; where they are too few to say on which side of the threshold the flux
- * is, more of them do. */
+/* What an effect, a step further in `more` than in `less`, changes, and the trace level that rays
+ * reach with `more`. */
 static enum result measure(const struct bake_work *work, enum effect effect,
                            const struct effects *less, const struct effects *more,
                            struct probe_change *change, int *depth, struct bake_report *report,
@@ -130,12 +134,12 @@ static enum result measure(const struct bake_work *work, enum effect effect,
   const struct slab *slabs = work->lamp->slabs;
   enum result result = RESULT_OK;
   bool certain = false;
-  for (int n = is_dear(effect) ? SPARSE : DENSE;
+  for (int n = is_expensive(effect) ? SPARSE : DENSE;
        n <= MOST_DIRECTIONS && !certain && result == RESULT_OK; n *= 2) {
     const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, n, n};
     struct probe_bake without = {0}, with = {0};
     result = probe_bake(work, slabs, less, samples, 1, &without, report, error);
-    certain = is_idle(work, effect, &without);
+    certain = changes_nothing(work, effect, &without);
     *change = (struct probe_change){.rays = 1};
     if (result == RESULT_OK && !certain)
       result = probe_bake(work, slabs, more, samples, 1, &with, report, error);
@@ -152,8 +156,10 @@ static enum result measure(const struct bake_work *work, enum effect effect,
   return result;
 }
 
+/* ---- 1. and 4. All effects ---- */
+
 /* Tries one effect on top of `effects`, and leaves it there as far as it matters. Where rays
- * still end at the trace level, more levels may matter though these did not. */
+ * still end at the trace level, more levels may matter though this step did not. */
 static enum result try_effect(const struct bake_work *work, enum effect effect,
                               struct effects *effects, struct probe_effect *found,
                               struct bake_report *report, struct error *error) {

@@ -1,10 +1,10 @@
-/* probe.h - finds out which effects a lamp calls for, before the bake: small bakes of the
- * same rays that differ in one setting each.
+/* probe.h - finds out which effects a lamp needs, by small bakes of the same rays that differ in
+ * one setting each.
  *
- * Effects are tried on top of those that were found to matter, the dearest last; one that
- * matters is taken further (more bounces, photons, lights, levels) until that changes nothing
- * that matters, or there is no further. A change matters above the threshold: that part of
- * the flux, or twice that part of the RMS of the light by direction or by position. */
+ * Effects are tried on top of those that matter, the most expensive last; one that matters is
+ * taken further (more bounces, photons, lights, levels) until that changes nothing that matters,
+ * or there is no further. A change matters above the threshold: that part of the flux, or twice
+ * that part of the RMS of the light by direction or by position. */
 #ifndef PROBE_H
 #define PROBE_H
 
@@ -30,13 +30,13 @@ struct probe {
   struct probe_effect effects[EFFECTS];
 };
 
-/* Fills *effects with those that matter. */
+/* Fills *effects with those that matter, and tells in *probe why. */
 enum result probe_effects(const struct bake_work *work, struct effects *effects,
                           struct probe *probe, struct bake_report *report, struct error *error);
 
 enum { PROBE_LINE = 160 };
 
-/* What was decided of an effect and why, one line: "on: flux +36 %, ...". */
+/* What was decided on an effect and why, one line: "on: flux +36 %, ...". */
 void probe_say(const struct probe *probe, const struct effects *effects, enum effect effect,
                char line[PROBE_LINE]);
 

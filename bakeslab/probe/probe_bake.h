@@ -1,5 +1,5 @@
-/* probe_bake.h - a small bake, which tells something of the large one to come. Its batch is
- * kept like all others: the same take again costs nothing. */
+/* probe_bake.h - a small bake that tells something of the full one to come. Its batches are kept
+ * like all others: the same small bake again costs nothing. */
 #ifndef PROBE_BAKE_H
 #define PROBE_BAKE_H
 
@@ -12,11 +12,11 @@ struct probe_bake {
   int depth;
 };
 
-/* Bakes slabs[work->lamp->slab_count] with `samples` of `rays` each, whatever theirs are.
- * Free the take with probe_bake_free in any case. */
+/* Bakes slabs[work->lamp->slab_count] with `samples` of `rays` each in place of the work's own.
+ * Free it with probe_bake_free in any case. */
 enum result probe_bake(const struct bake_work *work, const struct slab *slabs,
                        const struct effects *effects, const int samples[SLAB_AXES], int rays,
-                       struct probe_bake *take, struct bake_report *report, struct error *error);
-void probe_bake_free(struct probe_bake *take);
+                       struct probe_bake *bake, struct bake_report *report, struct error *error);
+void probe_bake_free(struct probe_bake *bake);
 
 #endif

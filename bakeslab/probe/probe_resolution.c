@@ -1,4 +1,14 @@
-/* probe_resolution.c - see probe_resolution.h. */
+/* probe_resolution.c - the fewest samples for a tolerance.
+ *
+ * 1. A small bake of 8 x 8 positions and 64 x 64 directions, without interreflection: that is
+ *    smooth, and with less light the relative error is the larger one.
+ * 2. Its own error at the distance and beyond (slab_accuracy.h), and that of the same bake halved,
+ *    for st and uv each: two points of a power law.
+ * 3. Continue both to the resolutions of the ladders, and add them.
+ * 4. Of those that meet the tolerance take the one with the fewest samples; if none does, the one
+ *    with the least error.
+ * 5. With a distance asked for, do all that for an st plane at that distance too, and take the
+ *    better of both. */
 #include "probe/probe_resolution.h"
 
 #include <math.h>
@@ -11,11 +21,11 @@
 #include "slab/slab_accuracy.h"
 #include "slab/slab_resample.h"
 
-/* Of the small bake: 4 rays keep its noise below the errors that it is to tell. */
-static const int taken[SLAB_AXES] = {8, 8, 64, 64};
-enum { TAKEN_RAYS = 4 };
+/* Of the small bake: 4 rays keep its noise below the errors that it is to show. */
+static const int probe_samples[SLAB_AXES] = {8, 8, 64, 64};
+enum { PROBE_RAYS = 4 };
 
-/* Light is looked at from the distance on, this far apart. */
+/* Where errors are estimated, times the distance. */
 enum { DISTANCES = 3 };
 static const double distances[DISTANCES] = {1, 2, 8};
 
@@ -28,26 +38,27 @@ static const double most_samples = 1 << 26;
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 /* An error that falls as a power of the samples along an axis. */
-struct fall {
+struct power_law {
   double at; /* of the small bake */
   double power;
 };
 
-static double fall_to(const struct fall *fall, double part) {
-  return fall->at / pow(part, fall->power);
+/* `ratio`: samples over those of the small bake. */
+static double error_at(const struct power_law *law, double ratio) {
+  return law->at / pow(ratio, law->power);
 }
 
-/* How fast a halving made it grow; two looks tell it badly, and it lies between these. */
-static struct fall make_fall(double full, double halved) {
+/* Two points give the power with little certainty; it is 1 at edges and 2 where light is smooth. */
+static struct power_law make_law(double full, double halved) {
   double power = full > 0 ? log2(halved / full) : 2;
-  return (struct fall){isfinite(full) ? full : 0, fmin(fmax(power, 1), 2)};
+  return (struct power_law){isfinite(full) ? full : 0, fmin(fmax(power, 1), 2)};
 }
 
 /* The errors of all pages at all distances, for one choice of st plane. */
 struct plane_errors {
   struct slab *slabs; /* geometry, owned */
   int count;
-  struct fall (*st)[DISTANCES], (*uv)[DISTANCES]; /* by page; owned */
+  struct power_law (*st)[DISTANCES], (*uv)[DISTANCES]; /* by page; owned */
 };
 
 static void free_errors(struct plane_errors *errors) {
@@ -61,13 +72,14 @@ static double worst(const struct plane_errors *errors, int uv, int st) {
   double most = 0;
   for (int n = 0; n < errors->count; ++n)
     for (int k = 0; k < DISTANCES; ++k)
-      most = fmax(most, fall_to(&errors->st[n][k], (double)st / taken[SLAB_S]) +
-                            fall_to(&errors->uv[n][k], (double)uv / taken[SLAB_U]));
+      most = fmax(most, error_at(&errors->st[n][k], (double)st / probe_samples[SLAB_S]) +
+                            error_at(&errors->uv[n][k], (double)uv / probe_samples[SLAB_U]));
   return most;
 }
 
-static enum result judge_page(const struct slab *page, double distance, struct fall st[DISTANCES],
-                              struct fall uv[DISTANCES], struct error *error) {
+static enum result estimate_page(const struct slab *page, double distance,
+                                 struct power_law st[DISTANCES], struct power_law uv[DISTANCES],
+                                 struct error *error) {
   int halved[SLAB_AXES];
   double at[DISTANCES];
   struct slab half = {0};
@@ -81,8 +93,8 @@ static enum result judge_page(const struct slab *page, double distance, struct f
   if (result == RESULT_OK)
     result = slab_accuracy_estimate(&half, &unknown, DISTANCES, at, less, error);
   for (int k = 0; k < DISTANCES && result == RESULT_OK; ++k) {
-    st[k] = make_fall(full[k].st, less[k].st);
-    uv[k] = make_fall(full[k].uv, less[k].uv);
+    st[k] = make_law(full[k].st, less[k].st);
+    uv[k] = make_law(full[k].uv, less[k].uv);
   }
   slab_free(&half);
   return result;
@@ -103,19 +115,18 @@ static double distance_of(const struct bake_work *work, const struct slab *slab)
   return distance > 0 ? distance : 4 * plane_width(slab);
 }
 
-/* Interreflection is smooth: without it less light makes the relative error larger. */
-static enum result judge_plane(const struct bake_work *work, const struct slab *slabs, bool moved,
-                               struct plane_errors *errors, struct bake_report *report,
-                               struct error *error) {
+/* Steps 1 and 2 for the st planes as they are, or moved to the distance. */
+static enum result estimate_plane(const struct bake_work *work, const struct slab *slabs,
+                                  bool moved, struct plane_errors *errors,
+                                  struct bake_report *report, struct error *error) {
   size_t count = (size_t)work->lamp->slab_count;
   struct effects effects = *work->look.effects;
-  struct probe_bake take = {0};
+  struct probe_bake bake = {0};
   *errors = (struct plane_errors){.slabs = calloc(count, sizeof *errors->slabs),
                                   .st = calloc(count, sizeof *errors->st),
                                   .uv = calloc(count, sizeof *errors->uv)};
-  enum result result = errors->slabs && errors->st && errors->uv
-                           ? RESULT_OK
-                           : result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result =
+      errors->slabs && errors->st && errors->uv ? RESULT_OK : result_no_memory(error);
   for (; errors->count < (int)count && result == RESULT_OK; ++errors->count) {
     struct slab *slab = &errors->slabs[errors->count];
     result = slab_copy_geometry(&slabs[errors->count], slab, error);
@@ -123,11 +134,12 @@ static enum result judge_plane(const struct bake_work *work, const struct slab *
   }
   effects.setting[INTERREFLECTION] = 0;
   if (result == RESULT_OK)
-    result = probe_bake(work, errors->slabs, &effects, taken, TAKEN_RAYS, &take, report, error);
+    result =
+        probe_bake(work, errors->slabs, &effects, probe_samples, PROBE_RAYS, &bake, report, error);
   for (int n = 0; n < errors->count && result == RESULT_OK; ++n)
-    result = judge_page(&take.pages[n], distance_of(work, &take.pages[n]), errors->st[n],
-                        errors->uv[n], error);
-  probe_bake_free(&take);
+    result = estimate_page(&bake.pages[n], distance_of(work, &bake.pages[n]), errors->st[n],
+                           errors->uv[n], error);
+  probe_bake_free(&bake);
   return result;
 }
 
@@ -147,7 +159,7 @@ static bool is_better(const struct choice *a, const struct choice *b, double tol
   return samples_of(a) < samples_of(b) || (samples_of(a) == samples_of(b) && a->error < b->error);
 }
 
-/* The fewest samples that meet the tolerance, else those with the least error. */
+/* Steps 3 and 4. */
 static struct choice choose(const struct plane_errors *errors, const struct bake_options *options) {
   struct choice best = {0};
   for (size_t n = 0; n < COUNT(uv_ladder); ++n)
@@ -202,7 +214,7 @@ enum result probe_resolution(const struct bake_work *work, struct slab *slabs,
   int several = options->for_distance > 0 ? 2 : 1, best = 0;
   enum result result = RESULT_OK;
   for (int n = 0; n < several && result == RESULT_OK; ++n) {
-    result = judge_plane(work, slabs, n == 1, &planes[n], report, error);
+    result = estimate_plane(work, slabs, n == 1, &planes[n], report, error);
     if (result == RESULT_OK) choices[n] = choose(&planes[n], options);
     if (result == RESULT_OK && n && is_better(&choices[n], &choices[0], options->tolerance))
       best = n;

@@ -1,5 +1,5 @@
 /* probe_window.h - fits the st windows to the light, so that no samples are spent where it
- * is dark; the declared window is the outer limit. */
+ * is black; the declared window is the outer limit. */
 #ifndef PROBE_WINDOW_H
 #define PROBE_WINDOW_H
 
@@ -11,9 +11,8 @@ struct probe_windows {
   char line[PROBE_WINDOW_LINE]; /* what was done, one line */
 };
 
-/* Fits slabs[work->lamp->slab_count], by the light that small bakes with the work's effects
- * show: a border may hold 1/4000 of a page's light at most, and is widened by a cell of the
- * small bake, whose rays may have missed some. A page without light keeps its window. */
+/* Fits the windows of slabs[work->lamp->slab_count], by the light that small bakes with the work's
+ * effects show. A page without light keeps its window. */
 enum result probe_window(const struct bake_work *work, struct slab *slabs,
                          struct probe_windows *windows, struct bake_report *report,
                          struct error *error);

@@ -142,7 +142,7 @@ enum result slab_copy_geometry(const struct slab *from, struct slab *to, struct 
   copy.rgb = NULL;
   if (from->json) {
     copy.json = strdup(from->json);
-    if (!copy.json) return result_fail(error, RESULT_MEMORY, "out of memory");
+    if (!copy.json) return result_no_memory(error);
   }
   *to = copy;
   return RESULT_OK;

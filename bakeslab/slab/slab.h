@@ -80,6 +80,11 @@ void slab_lookup(const struct slab *slab, double a, double b, double s, double t
 bool slab_ray(const struct slab *slab, const double origin[3], const double direction[3],
               double abst[4]);
 
+/* Rec. 709 luminance of a sample. */
+static inline double slab_luminance(const float rgb[3]) {
+  return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+}
+
 /* Radiant flux leaving through the page: the integral of the interpolated
  * radiance times cosine over aperture and window, with lengths in lamp units
  * (slab_flux.c). Without memory for it: RESULT_MEMORY, and NAN. */

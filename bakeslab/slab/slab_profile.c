@@ -25,7 +25,7 @@ enum result slab_profile(const struct slab *slab, struct slab_profile *profile,
   memcpy(profile->samples, slab->samples, sizeof profile->samples);
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     profile->axis[axis] = calloc((size_t)slab->samples[axis], sizeof(double));
-    if (!profile->axis[axis]) return result_fail(error, RESULT_MEMORY, "out of memory");
+    if (!profile->axis[axis]) return result_no_memory(error);
   }
   add_samples(slab, profile);
   double all = (double)slab_sample_count(slab);

@@ -47,7 +47,7 @@ static enum result change_axis(const float *in, float *out, size_t outer, int ol
   if (!weights || !sum) {
     free(weights);
     free(sum);
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+    return result_no_memory(error);
   }
   for (int index = 0; index < new; ++index) {
     struct taps taps = (new < old ? mean_taps : linear_taps)(old, new, index, weights);
