@@ -23,15 +23,15 @@ struct part {
 struct slab_exr {
   exr_context_t context;
   int fd;
-  char *path;
-  char why[256]; /* the library's latest complaint */
+  const char *path; /* not owned */
+  char why[256];    /* the library's latest complaint */
   struct part *parts;
   int count;
 };
 
 static void remember(exr_const_context_t context, exr_result_t code, const char *message) {
-  (void)code;
   void *data = NULL;
+  (void)code;
   if (exr_get_user_data(context, &data) != EXR_ERR_SUCCESS || !data) return;
   struct slab_exr *exr = data;
   /* The library puts the file's name in front, which our messages do too. */
@@ -153,12 +153,12 @@ enum result slab_exr_open(int fd, const char *path, const char *text_name, struc
   exr_result_t code;
   *out = NULL;
   struct slab_exr *exr = calloc(1, sizeof *exr);
-  if (!exr || !(exr->path = strdup(path))) {
-    free(exr);
+  if (!exr) {
     close(fd);
-    return result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
+    return result_at(result_no_memory(error), error, "%s", path);
   }
   exr->fd = fd;
+  exr->path = path;
   exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
   setup.error_handler_fn = remember;
   setup.user_data = exr;
@@ -176,10 +176,10 @@ enum result slab_exr_open(int fd, const char *path, const char *text_name, struc
   exr->parts = calloc((size_t)exr->count, sizeof *exr->parts);
   if (!exr->parts) {
     exr->count = 0;
-    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
+    result = result_at(result_no_memory(error), error, "%s", path);
     goto out;
   }
-  /* A picture is the first part; what others hold is nobody's business. */
+  /* A picture is the first part. */
   if (!text_name && exr->count > 1) exr->count = 1;
   for (int part = 0; part < exr->count && result == RESULT_OK; ++part)
     result = result_at(read_part_header(exr, part, text_name, error), error, "%s: page %d", path,
@@ -198,7 +198,6 @@ void slab_exr_close(struct slab_exr *exr) {
   if (exr->context) exr_finish(&exr->context);
   close(exr->fd);
   free(exr->parts);
-  free(exr->path);
   free(exr);
 }
 

@@ -37,8 +37,8 @@ enum result slab_exr_write_parts(struct output *output, const struct slab_raster
  * 1 in messages. */
 struct slab_exr; /* owned by whoever opened it */
 
-/* Reads the headers. Takes over `fd`, also when it fails; `path` is for
- * messages. The text of each part is that of the string attribute `text_name`; where that is NULL,
+/* Reads the headers. Takes over `fd`, also when it fails; `path`, for messages, must
+ * stay. The text of each part is that of the string attribute `text_name`; where that is NULL,
  * only the first part is looked at. */
 enum result slab_exr_open(int fd, const char *path, const char *text_name, struct slab_exr **exr,
                           struct error *error);

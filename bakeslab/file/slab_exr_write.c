@@ -78,33 +78,23 @@ static exr_result_t write_shorter(exr_encode_pipeline_t *pipeline) {
   return (*(write_step *)pipeline->encoding_user_data)(pipeline);
 }
 
-/* Encodes the block at (x, y); `halves` has room for its pixels. */
+/* Encodes the block at (x, y). */
 static exr_result_t write_block(struct writer *writer, int part, const exr_chunk_info_t *chunk,
-                                int x, int y, uint16_t *halves) {
+                                int x, int y) {
   const struct slab_raster *raster = &writer->parts[part];
   const float *from = raster->rgb + 3 * ((size_t)y * (size_t)raster->width + (size_t)x);
-  const uint8_t *base = (const uint8_t *)from;
-  int element = sizeof(float), row_pixels = raster->width;
-  if (raster->precision == SLAB_PRECISION_HALF) {
-    for (int row = 0; row < chunk->height; ++row)
-      for (int k = 0; k < 3 * chunk->width; ++k)
-        halves[(size_t)row * 3 * (size_t)chunk->width + (size_t)k] =
-            slab_half_from_float(from[3 * (size_t)row * (size_t)raster->width + (size_t)k]);
-    base = (const uint8_t *)halves;
-    element = sizeof *halves;
-    row_pixels = chunk->width;
-  }
   exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
   exr_result_t code = exr_encoding_initialize(writer->context, part, chunk, &pipeline);
   for (int k = 0; code == EXR_ERR_SUCCESS && k < pipeline.channel_count; ++k) {
     exr_coding_channel_info_t *channel = &pipeline.channels[k];
     char colour = channel->channel_name[strlen(channel->channel_name) - 1];
-    int place = colour == 'R' ? 0 : colour == 'G' ? 1 : 2;
-    channel->encode_from_ptr = base + place * element;
-    channel->user_bytes_per_element = (int16_t)element;
-    channel->user_data_type = channel->data_type;
-    channel->user_pixel_stride = 3 * element;
-    channel->user_line_stride = 3 * element * row_pixels;
+    channel->encode_from_ptr = (const uint8_t *)(from + (colour == 'R'   ? 0
+                                                         : colour == 'G' ? 1
+                                                                         : 2));
+    channel->user_bytes_per_element = sizeof(float);
+    channel->user_data_type = EXR_PIXEL_FLOAT;
+    channel->user_pixel_stride = 3 * sizeof(float);
+    channel->user_line_stride = 3 * (int)sizeof(float) * raster->width;
   }
   if (code == EXR_ERR_SUCCESS)
     code = exr_encoding_choose_default_routines(writer->context, part, &pipeline);
@@ -120,25 +110,18 @@ static exr_result_t write_part(struct writer *writer, int part) {
   const struct slab_raster *raster = &writer->parts[part];
   bool tiled = raster->block_width > 0;
   int32_t lines = 0;
-  exr_result_t code = exr_get_scanlines_per_chunk(writer->context, part, &lines);
-  if (tiled) code = EXR_ERR_SUCCESS; /* the question is for scan lines only */
-  if (code != EXR_ERR_SUCCESS) return code;
+  exr_result_t code = EXR_ERR_SUCCESS;
+  if (!tiled) code = exr_get_scanlines_per_chunk(writer->context, part, &lines);
   int step_x = tiled ? raster->block_width : raster->width;
   int step_y = tiled ? raster->block_height : lines;
-  uint16_t *halves = NULL;
-  if (raster->precision == SLAB_PRECISION_HALF) {
-    halves = calloc((size_t)step_x * (size_t)step_y, 3 * sizeof *halves);
-    if (!halves) return EXR_ERR_OUT_OF_MEMORY;
-  }
   for (int y = 0; y < raster->height && code == EXR_ERR_SUCCESS; y += step_y)
     for (int x = 0; x < raster->width && code == EXR_ERR_SUCCESS; x += step_x) {
       exr_chunk_info_t chunk = {0};
       code = tiled ? exr_write_tile_chunk_info(writer->context, part, x / step_x, y / step_y, 0, 0,
                                                &chunk)
                    : exr_write_scanline_chunk_info(writer->context, part, y, &chunk);
-      if (code == EXR_ERR_SUCCESS) code = write_block(writer, part, &chunk, x, y, halves);
+      if (code == EXR_ERR_SUCCESS) code = write_block(writer, part, &chunk, x, y);
     }
-  free(halves);
   return code;
 }
 
@@ -168,16 +151,12 @@ enum result slab_exr_write_parts(struct output *output, const struct slab_raster
 
 static enum result check_half(const char *path, const struct picture *picture,
                               struct error *error) {
-  for (int y = 0; y < picture->height; ++y)
-    for (int x = 0; x < picture->width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        float value =
-            picture->rgb[3 * ((size_t)y * (size_t)picture->width + (size_t)x) + (size_t)c];
-        if (!slab_half_holds(value))
-          return result_fail(error, RESULT_BAD,
-                             "%s: pixel %d,%d is %g, half holds at most 65504: write float", path,
-                             x, y, (double)value);
-      }
+  size_t width = (size_t)picture->width, count = 3 * width * (size_t)picture->height;
+  for (size_t n = 0; n < count; ++n)
+    if (!slab_half_holds(picture->rgb[n]))
+      return result_fail(error, RESULT_BAD,
+                         "%s: pixel %zu,%zu is %g, half holds at most 65504: write float", path,
+                         n / 3 % width, n / 3 / width, (double)picture->rgb[n]);
   return RESULT_OK;
 }
 

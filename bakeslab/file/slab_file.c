@@ -53,26 +53,18 @@ static int spool_stdin(void) {
   return fd;
 }
 
-enum kind { KIND_TIFF, KIND_EXR };
-
-static enum result recognise(int fd, const char *path, enum kind *kind, struct error *error) {
+static enum result recognise(int fd, const char *path, bool *exr, struct error *error) {
+  static const unsigned char tiffs[4][4] = {
+      {'I', 'I', 42, 0}, {'M', 'M', 0, 42}, {'I', 'I', 43, 0}, {'M', 'M', 0, 43}};
+  static const unsigned char exrs[4] = {0x76, 0x2f, 0x31, 0x01};
   unsigned char magic[4] = {0};
   ssize_t got = pread(fd, magic, sizeof magic, 0);
   if (got < 0) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
   if (got == 0) return result_fail(error, RESULT_BAD, "%s: is empty", path);
-  static const struct {
-    unsigned char magic[4];
-    enum kind kind;
-  } known[] = {{{'I', 'I', 42, 0}, KIND_TIFF},
-               {{'M', 'M', 0, 42}, KIND_TIFF},
-               {{'I', 'I', 43, 0}, KIND_TIFF},
-               {{'M', 'M', 0, 43}, KIND_TIFF},
-               {{0x76, 0x2f, 0x31, 0x01}, KIND_EXR}};
-  for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
-    if (!memcmp(magic, known[k].magic, sizeof magic)) {
-      *kind = known[k].kind;
-      return RESULT_OK;
-    }
+  *exr = !memcmp(magic, exrs, sizeof magic);
+  bool known = *exr;
+  for (int k = 0; k < 4; ++k) known |= !memcmp(magic, tiffs[k], sizeof magic);
+  if (known) return RESULT_OK;
   return result_fail(error, RESULT_BAD, "%s: is neither TIFF nor EXR, so no light slab", path);
 }
 
@@ -111,39 +103,35 @@ static enum result parse_page(struct slab_file *file, int page, struct error *er
                      raster->height);
 }
 
+static enum result find_pages(struct slab_file *file, double bytes, struct error *error) {
+  file->count = file->tiff ? slab_tiff_pages(file->tiff) : slab_exr_parts(file->exr);
+  file->pages = calloc((size_t)file->count, sizeof *file->pages);
+  if (!file->pages) return result_at(result_no_memory(error), error, "%s", file->path);
+  enum result result = check_size(file, bytes, error);
+  for (int page = 0; page < file->count && result == RESULT_OK; ++page)
+    result = parse_page(file, page, error);
+  return result;
+}
+
 enum result slab_file_open(const char *path, struct slab_file **out, struct error *error) {
-  enum result result = RESULT_OK;
-  enum kind kind = KIND_TIFF;
-  double bytes = 0;
-  *out = NULL;
-  bool piped = !strcmp(path, "-");
+  bool piped = !strcmp(path, "-"), exr = false;
   if (piped) path = "stdin";
+  *out = NULL;
   int fd = piped ? spool_stdin() : open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
   struct slab_file *file = calloc(1, sizeof *file);
-  if (!file || !(file->path = strdup(path))) {
-    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
-    goto out;
+  if (file) file->path = strdup(path);
+  enum result result =
+      file && file->path ? RESULT_OK : result_at(result_no_memory(error), error, "%s", path);
+  if (result == RESULT_OK) result = recognise(fd, path, &exr, error);
+  if (result == RESULT_OK) {
+    double bytes = (double)lseek(fd, 0, SEEK_END);
+    lseek(fd, 0, SEEK_SET); /* libtiff reads from where it stands */
+    result = exr ? slab_exr_open(fd, file->path, "lightslab", &file->exr, error)
+                 : slab_tiff_open(fd, file->path, &file->tiff, error);
+    fd = -1; /* theirs now */
+    if (result == RESULT_OK) result = find_pages(file, bytes, error);
   }
-  result = recognise(fd, path, &kind, error);
-  if (result != RESULT_OK) goto out;
-  bytes = (double)lseek(fd, 0, SEEK_END);
-  lseek(fd, 0, SEEK_SET); /* libtiff reads from where it stands */
-  result = kind == KIND_TIFF ? slab_tiff_open(fd, path, &file->tiff, error)
-                             : slab_exr_open(fd, path, "lightslab", &file->exr, error);
-  fd = -1; /* theirs now */
-  if (result != RESULT_OK) goto out;
-  int count = file->tiff ? slab_tiff_pages(file->tiff) : slab_exr_parts(file->exr);
-  file->pages = calloc((size_t)count, sizeof *file->pages);
-  if (!file->pages) {
-    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
-    goto out;
-  }
-  file->count = count;
-  result = check_size(file, bytes, error);
-  for (int page = 0; page < count && result == RESULT_OK; ++page)
-    result = parse_page(file, page, error);
-out:
   if (fd >= 0) close(fd);
   if (result == RESULT_OK)
     *out = file;

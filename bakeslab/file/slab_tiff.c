@@ -22,8 +22,8 @@ struct page {
 
 struct slab_tiff {
   TIFF *tif;
-  char *path;
-  char why[256]; /* libtiff's latest complaint */
+  const char *path; /* not owned */
+  char why[256];    /* libtiff's latest complaint */
   struct page *pages;
   int count;
   int current;    /* the directory that libtiff stands on */
@@ -167,11 +167,11 @@ enum result slab_tiff_open(int fd, const char *path, struct slab_tiff **out, str
   struct stat status;
   *out = NULL;
   struct slab_tiff *tiff = calloc(1, sizeof *tiff);
-  if (!tiff || !(tiff->path = strdup(path))) {
-    free(tiff);
+  if (!tiff) {
     close(fd);
-    return result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
+    return result_at(result_no_memory(error), error, "%s", path);
   }
+  tiff->path = path;
   if (fstat(fd, &status) == 0) tiff->bytes = (uint64_t)status.st_size;
   tiff->tif = open_tiff(fd, tiff);
   if (!tiff->tif) {
@@ -182,7 +182,7 @@ enum result slab_tiff_open(int fd, const char *path, struct slab_tiff **out, str
   int count = (int)TIFFNumberOfDirectories(tiff->tif);
   tiff->pages = calloc((size_t)count, sizeof *tiff->pages);
   if (!tiff->pages) {
-    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
+    result = result_at(result_no_memory(error), error, "%s", path);
     goto out;
   }
   tiff->count = count;
@@ -209,7 +209,6 @@ void slab_tiff_close(struct slab_tiff *tiff) {
   for (int page = 0; tiff->pages && page < tiff->count; ++page) free(tiff->pages[page].raster.text);
   if (tiff->tif) TIFFClose(tiff->tif); /* closes the descriptor too */
   free(tiff->pages);
-  free(tiff->path);
   free(tiff);
 }
 

@@ -14,8 +14,8 @@ void slab_tiff_choose_white(const float *rgb, size_t count, double white[3]);
 
 struct slab_tiff; /* owned by whoever opened it */
 
-/* Reads all directories. Takes over `fd`, also when it fails; `path` is for
- * messages. Reads strips or tiles, lossless compressions, both planar
+/* Reads all directories. Takes over `fd`, also when it fails; `path`, for messages, must
+ * stay. Reads strips or tiles, lossless compressions, both planar
  * configurations. */
 enum result slab_tiff_open(int fd, const char *path, struct slab_tiff **tiff, struct error *error);
 void slab_tiff_close(struct slab_tiff *tiff); /* NULL allowed */
