@@ -125,56 +125,50 @@ static void build_rule(const struct slab *slab, int axis, int i, int k, struct r
   memcpy(rule->w, weights, (size_t)rule->count * sizeof *weights);
 }
 
-/* The rules of all columns (or of all rows), one after the other. */
-struct rules {
-  size_t *start; /* count + 1 */
-  double *x, *w;
+/* The rules of all columns (or of all rows). */
+struct nodes {
+  int count;
+  double *x, *w; /* one block of memory, owned */
 };
 
-static void free_rules(struct rules *rules) {
-  free(rules->start);
-  free(rules->x);
-  free(rules->w);
+static void free_rules(struct nodes *rules, size_t count) {
+  for (size_t n = 0; rules && n < count; ++n) free(rules[n].x);
+  free(rules);
 }
 
-/* `axis` is SLAB_U for columns, SLAB_V for rows. */
-static bool make_rules(const struct slab *slab, int axis, int positions, struct rules *rules) {
-  int slopes = slab->samples[axis + SLAB_S];
+/* `axis` is SLAB_U for columns, SLAB_V for rows. NULL without memory. */
+static struct nodes *make_rules(const struct slab *slab, int axis, size_t count) {
+  size_t slopes = (size_t)slab->samples[axis + SLAB_S];
   struct rule *rule = malloc(sizeof *rule);
-  size_t room = 0, used = 0;
-  rules->start = calloc((size_t)positions * (size_t)slopes + 1, sizeof *rules->start);
-  bool ok = rule && rules->start;
-  for (int i = 0; i < positions && ok; ++i)
-    for (int k = 0; k < slopes && ok; ++k) {
-      build_rule(slab, axis, i, k, rule);
-      if (!rules->x || used + (size_t)rule->count > room) {
-        room = 2 * (used + (size_t)rule->count) + 1;
-        double *x = realloc(rules->x, room * sizeof *x);
-        if (x) rules->x = x;
-        double *w = realloc(rules->w, room * sizeof *w);
-        if (w) rules->w = w;
-        ok = x && w;
-        if (!ok) break;
-      }
-      memcpy(rules->x + used, rule->x, (size_t)rule->count * sizeof *rule->x);
-      memcpy(rules->w + used, rule->w, (size_t)rule->count * sizeof *rule->w);
-      used += (size_t)rule->count;
-      rules->start[i * slopes + k + 1] = used;
-    }
+  struct nodes *rules = calloc(count, sizeof *rules);
+  bool good = rule && rules;
+  for (size_t n = 0; n < count && good; ++n) {
+    build_rule(slab, axis, (int)(n / slopes), (int)(n % slopes), rule);
+    size_t nodes = (size_t)rule->count;
+    double *x = malloc((2 * nodes + 1) * sizeof *x);
+    good = x != NULL;
+    if (!good) break;
+    memcpy(x, rule->x, nodes * sizeof *x);
+    memcpy(x + nodes, rule->w, nodes * sizeof *x);
+    rules[n] = (struct nodes){rule->count, x, x + nodes};
+  }
   free(rule);
-  return ok;
+  if (good) return rules;
+  free_rules(rules, count);
+  return NULL;
 }
 
-static double weight(const struct rules *columns, size_t column, const struct rules *rows,
-                     size_t row) {
+static double weight(const struct nodes *column, const struct nodes *row) {
+  const double *x = column->x, *w = column->w;
+  int count = column->count;
   double sum = 0;
-  for (size_t q = rows->start[row]; q < rows->start[row + 1]; ++q) {
-    double base = 1 + rows->x[q] * rows->x[q], line = 0;
-    for (size_t p = columns->start[column]; p < columns->start[column + 1]; ++p) {
-      double reciprocal = 1 / (base + columns->x[p] * columns->x[p]);
-      line += columns->w[p] * reciprocal * reciprocal;
+  for (int q = 0; q < row->count; ++q) {
+    double base = 1 + row->x[q] * row->x[q], line = 0;
+    for (int p = 0; p < count; ++p) {
+      double reciprocal = 1 / (base + x[p] * x[p]);
+      line += w[p] * reciprocal * reciprocal;
     }
-    sum += rows->w[q] * line;
+    sum += row->w[q] * line;
   }
   return sum;
 }
@@ -194,31 +188,25 @@ static void add_row(const struct slab *slab, int j, int l, const double *weights
 enum result slab_flux(const struct slab *slab, double rgb[3]) {
   /* With the st plane at infinity all views have the same weights. */
   bool one_view = slab_kappa(slab) == 0;
-  int views_u = one_view ? 1 : slab->samples[SLAB_U],
-      views_v = one_view ? 1 : slab->samples[SLAB_V];
-  size_t columns_count = (size_t)views_u * (size_t)slab->samples[SLAB_S];
-  struct rules columns = {0}, rows = {0};
+  size_t ns = (size_t)slab->samples[SLAB_S], nt = (size_t)slab->samples[SLAB_T];
+  size_t columns_count = one_view ? ns : ns * (size_t)slab->samples[SLAB_U];
+  size_t rows_count = one_view ? nt : nt * (size_t)slab->samples[SLAB_V];
+  struct nodes *columns = make_rules(slab, SLAB_U, columns_count);
+  struct nodes *rows = make_rules(slab, SLAB_V, rows_count);
   double *weights = calloc(columns_count, sizeof *weights);
-  enum result result = RESULT_MEMORY;
-  rgb[0] = rgb[1] = rgb[2] = NAN;
-  if (!weights || !make_rules(slab, SLAB_U, views_u, &columns) ||
-      !make_rules(slab, SLAB_V, views_v, &rows))
-    goto out;
-  result = RESULT_OK;
-  rgb[0] = rgb[1] = rgb[2] = 0;
-  for (int l = 0; l < slab->samples[SLAB_T]; ++l)
+  bool good = columns && rows && weights;
+  rgb[0] = rgb[1] = rgb[2] = good ? 0 : NAN;
+  for (int l = 0; l < slab->samples[SLAB_T] && good; ++l)
     for (int j = 0; j < slab->samples[SLAB_V]; ++j) {
-      if (j < views_v) {
-        size_t row = (size_t)j * (size_t)slab->samples[SLAB_T] + (size_t)l;
-        for (size_t k = 0; k < columns_count; ++k) weights[k] = weight(&columns, k, &rows, row);
-      }
+      size_t row = (size_t)j * nt + (size_t)l;
+      if (row < rows_count)
+        for (size_t k = 0; k < columns_count; ++k) weights[k] = weight(&columns[k], &rows[row]);
       add_row(slab, j, l, weights, one_view, rgb);
     }
-out:
   free(weights);
-  free_rules(&columns);
-  free_rules(&rows);
-  return result;
+  free_rules(columns, columns_count);
+  free_rules(rows, rows_count);
+  return good ? RESULT_OK : RESULT_MEMORY;
 }
 
 enum result slab_flux_metric(const struct slab *slab, double rgb[3]) {
