@@ -1,15 +1,13 @@
-/* cmd_info.c - bakeslab info: what a slab is, for people or as JSON. Both are
- * printed from one JSON object a page:
+/* cmd_info.c - bakeslab info: what a slab is, for people or as JSON. The JSON has an object a page:
  *   page, name, precision, samples, center, u, v, normal, st_window,
- *   st_distance, metres_per_unit, radiance_unit, samples_are, provenance,
+ *   st_distance, metres_per_unit, radiance_unit, samples_are,
  *   flux [r, g, b], flux_unit, peak [r, g, b], peak_sample [i, j, k, l],
- *   lowest (the smallest channel value).
+ *   lowest (the smallest channel value), provenance.
  * Flux is in W or lm where the radiance has such a unit, always with lengths in
  * metres (slab_flux_metric). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cmd/slab_options.h"
 #include "file/json_text.h"
@@ -32,75 +30,86 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
   }
 }
 
+struct page {
+  struct slab slab; /* its samples are freed once they are looked at */
+  enum slab_precision precision;
+  double flux[3], peak[3], lowest;
+  int peak_sample[SLAB_AXES];
+  json_t *root; /* the page's own JSON */
+};
+
+/* Flux, peak and lowest value. */
+static enum result find_figures(struct page *page, struct error *error) {
+  const struct slab *slab = &page->slab;
+  const float *rgb = slab->rgb;
+  size_t count = 3 * slab_sample_count(slab), highest = 0, lowest = 0;
+  if (slab_flux_metric(slab, page->flux) != RESULT_OK) return result_no_memory(error);
+  for (size_t n = 0; n < count; ++n) {
+    if (rgb[n] > rgb[highest]) highest = n;
+    if (rgb[n] < rgb[lowest]) lowest = n;
+  }
+  slab_locate(slab, highest / 3, page->peak_sample);
+  for (size_t c = 0; c < 3; ++c) page->peak[c] = (double)rgb[highest / 3 * 3 + c];
+  page->lowest = (double)rgb[lowest];
+  return RESULT_OK;
+}
+
+static enum result read_page(struct slab_file *file, int number, struct page *page,
+                             struct error *error) {
+  page->precision = slab_file_precision(file, number);
+  enum result result = slab_file_load(file, number, &page->slab, error);
+  if (result == RESULT_OK) result = slab_json_root(&page->slab, &page->root, error);
+  if (result == RESULT_OK) result = find_figures(page, error);
+  free(page->slab.rgb);
+  page->slab.rgb = NULL;
+  return result;
+}
+
+/* ---- JSON ---- */
+
 static json_t *numbers(const double *values, size_t count) {
   json_t *array = json_array();
   for (size_t k = 0; k < count; ++k) json_array_append_new(array, json_real(values[k]));
   return array;
 }
 
-static json_t *integers(const int *values, size_t count) {
-  json_t *array = json_array();
-  for (size_t k = 0; k < count; ++k) json_array_append_new(array, json_integer(values[k]));
-  return array;
+static json_t *describe(const struct page *page, int number) {
+  const struct slab *slab = &page->slab;
+  const int *n = slab->samples, *at = page->peak_sample;
+  bool infinite = isinf(slab->st_distance);
+  return json_pack(
+      "{s:i, s:s, s:s, s:[iiii], s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:s, s:O*, s:o, s:s, s:o, "
+      "s:[iiii], s:f, s:O*}",
+      "page", number, "name", slab->name, "precision", cli_precision_name(page->precision),
+      "samples", n[0], n[1], n[2], n[3], "center", numbers(slab->center, 3), "u",
+      numbers(slab->u, 3), "v", numbers(slab->v, 3), "normal", numbers(slab->normal, 3),
+      "st_window", numbers(slab->st_window, 4), "st_distance",
+      infinite ? json_null() : json_real(slab->st_distance), "metres_per_unit",
+      slab->metres_per_unit, "radiance_unit", slab->radiance_unit, "samples_are",
+      json_object_get(page->root, "samples_are"), "flux", numbers(page->flux, 3), "flux_unit",
+      slab_flux_unit(slab), "peak", numbers(page->peak, 3), "peak_sample", at[0], at[1], at[2],
+      at[3], "lowest", page->lowest, "provenance", json_object_get(page->root, "provenance"));
 }
 
-/* Flux, peak and lowest value. */
-static void add_figures(json_t *page, const struct slab *slab, const double flux[3]) {
-  double peak[3];
-  const size_t count = slab_sample_count(slab);
-  size_t brightest = 0;
-  float most = -INFINITY, lowest = INFINITY;
-  for (size_t k = 0; k < count; ++k)
-    for (size_t c = 0; c < 3; ++c) {
-      float value = slab->rgb[3 * k + c];
-      if (value > most) {
-        most = value;
-        brightest = k;
-      }
-      if (value < lowest) lowest = value;
-    }
-  for (size_t c = 0; c < 3; ++c) peak[c] = (double)slab->rgb[3 * brightest + c];
-  int where[SLAB_AXES];
-  slab_locate(slab, brightest, where);
-  json_object_set_new(page, "flux", numbers(flux, 3));
-  json_object_set_new(page, "flux_unit", json_string(slab_flux_unit(slab)));
-  json_object_set_new(page, "peak", numbers(peak, 3));
-  json_object_set_new(page, "peak_sample", integers(where, 4));
-  json_object_set_new(page, "lowest", json_real((double)lowest));
+static enum result print_json(const char *path, const struct page *pages, int count,
+                              struct error *error) {
+  char *text;
+  unsigned long mark = json_mark();
+  json_t *list = json_array();
+  for (int n = 0; n < count; ++n) json_array_append_new(list, describe(&pages[n], n + 1));
+  json_t *root = json_pack("{s:o, s:o}", "file", json_any_string(path), "pages", list);
+  enum result result =
+      json_text(root, mark, JSON_INDENT(2) | JSON_REAL_PRECISION(17), &text, error);
+  if (result == RESULT_OK) puts(text);
+  free(text);
+  json_decref(root);
+  return result;
 }
 
-static void add_kept(json_t *page, const json_t *root, const char *key) {
-  json_object_set(page, key, json_object_get(root, key)); /* NULL: not set */
-}
+/* ---- Text ---- */
 
-static json_t *describe(const struct slab *slab, const json_t *root, int number,
-                        enum slab_precision precision, const double flux[3]) {
-  json_t *page = json_object();
-  json_object_set_new(page, "page", json_integer(number));
-  json_object_set_new(page, "name", json_string(slab->name));
-  json_object_set_new(page, "precision", json_string(cli_precision_name(precision)));
-  json_object_set_new(page, "samples", integers(slab->samples, SLAB_AXES));
-  json_object_set_new(page, "center", numbers(slab->center, 3));
-  json_object_set_new(page, "u", numbers(slab->u, 3));
-  json_object_set_new(page, "v", numbers(slab->v, 3));
-  json_object_set_new(page, "normal", numbers(slab->normal, 3));
-  json_object_set_new(page, "st_window", numbers(slab->st_window, 4));
-  json_object_set_new(page, "st_distance",
-                      isinf(slab->st_distance) ? json_null() : json_real(slab->st_distance));
-  json_object_set_new(page, "metres_per_unit", json_real(slab->metres_per_unit));
-  json_object_set_new(page, "radiance_unit", json_string(slab->radiance_unit));
-  add_kept(page, root, "samples_are");
-  add_figures(page, slab, flux);
-  add_kept(page, root, "provenance");
-  return page;
-}
-
-static double item(const json_t *page, const char *key, size_t k) {
-  return json_number_value(json_array_get(json_object_get(page, key), k));
-}
-
-static void print_vector(const json_t *page, const char *key) {
-  printf("  %-14s%g %g %g\n", key, item(page, key, 0), item(page, key, 1), item(page, key, 2));
+static void print_vector(const char *label, const double v[3]) {
+  printf("  %-14s%g %g %g\n", label, v[0], v[1], v[2]);
 }
 
 static enum result print_value(const char *key, const json_t *value, struct error *error) {
@@ -113,76 +122,62 @@ static enum result print_value(const char *key, const json_t *value, struct erro
   return result;
 }
 
-static enum result print_page(const char *path, const json_t *page, int pages,
-                              struct error *error) {
-  const char *unit = json_string_value(json_object_get(page, "radiance_unit"));
-  const json_t *distance = json_object_get(page, "st_distance");
-  printf("%s: page %d of %d: %s\n", path, (int)json_integer_value(json_object_get(page, "page")),
-         pages, json_string_value(json_object_get(page, "name")));
-  printf("  %-14s%g x %g x %g x %g, %s\n", "samples", item(page, "samples", 0),
-         item(page, "samples", 1), item(page, "samples", 2), item(page, "samples", 3),
-         json_string_value(json_object_get(page, "precision")));
-  print_vector(page, "center");
-  print_vector(page, "u");
-  print_vector(page, "v");
-  print_vector(page, "normal");
-  printf("  %-14s%g %g x %g %g\n", "st window", item(page, "st_window", 0),
-         item(page, "st_window", 1), item(page, "st_window", 2), item(page, "st_window", 3));
-  if (json_is_null(distance))
+static void print_page(const char *path, const struct page *page, int number, int count) {
+  const struct slab *slab = &page->slab;
+  const int *n = slab->samples, *at = page->peak_sample;
+  const double *w = slab->st_window, *flux = page->flux, *peak = page->peak;
+  printf("%s: page %d of %d: %s\n", path, number, count, slab->name);
+  printf("  %-14s%d x %d x %d x %d, %s\n", "samples", n[0], n[1], n[2], n[3],
+         cli_precision_name(page->precision));
+  print_vector("center", slab->center);
+  print_vector("u", slab->u);
+  print_vector("v", slab->v);
+  print_vector("normal", slab->normal);
+  printf("  %-14s%g %g x %g %g\n", "st window", w[0], w[1], w[2], w[3]);
+  if (isinf(slab->st_distance))
     printf("  %-14sinfinite\n", "st distance");
   else
-    printf("  %-14s%g\n", "st distance", json_number_value(distance));
-  printf("  %-14s%g\n", "metres/unit", json_number_value(json_object_get(page, "metres_per_unit")));
-  printf("  %-14s%.6g %.6g %.6g (%s)\n", "flux", item(page, "flux", 0), item(page, "flux", 1),
-         item(page, "flux", 2), json_string_value(json_object_get(page, "flux_unit")));
-  printf("  %-14s%.6g %.6g %.6g (%s) at sample (%g, %g, %g, %g)\n", "peak", item(page, "peak", 0),
-         item(page, "peak", 1), item(page, "peak", 2), unit, item(page, "peak_sample", 0),
-         item(page, "peak_sample", 1), item(page, "peak_sample", 2), item(page, "peak_sample", 3));
-  printf("  %-14s%.6g\n", "lowest", json_number_value(json_object_get(page, "lowest")));
-  const char *how = json_string_value(json_object_get(page, "samples_are"));
+    printf("  %-14s%g\n", "st distance", slab->st_distance);
+  printf("  %-14s%g\n", "metres/unit", slab->metres_per_unit);
+  printf("  %-14s%.6g %.6g %.6g (%s)\n", "flux", flux[0], flux[1], flux[2], slab_flux_unit(slab));
+  printf("  %-14s%.6g %.6g %.6g (%s) at sample (%d, %d, %d, %d)\n", "peak", peak[0], peak[1],
+         peak[2], slab->radiance_unit, at[0], at[1], at[2], at[3]);
+  printf("  %-14s%.6g\n", "lowest", page->lowest);
+  const char *how = json_string_value(json_object_get(page->root, "samples_are"));
   if (how) printf("  %-14s%s\n", "samples are", how);
+}
+
+static enum result print_provenance(const struct page *page, struct error *error) {
+  json_t *provenance = json_object_get(page->root, "provenance"), *value;
   const char *key;
-  json_t *value, *provenance = json_object_get(page, "provenance");
+  enum result result = RESULT_OK;
   if (provenance) printf("  provenance\n");
   if (provenance && !json_is_object(provenance)) return print_value("", provenance, error);
-  enum result result = RESULT_OK;
   json_object_foreach(provenance, key, value) {
     if (result == RESULT_OK) result = print_value(key, value, error);
   }
   return result;
 }
 
-static enum result print_json(const char *path, json_t *pages, unsigned long mark,
-                              struct error *error) {
-  char *text;
-  json_t *root = json_object();
-  json_object_set_new(root, "file", json_any_string(path));
-  json_object_set(root, "pages", pages);
-  enum result result =
-      json_text(root, mark, JSON_INDENT(2) | JSON_REAL_PRECISION(17), &text, error);
-  if (result == RESULT_OK) puts(text);
-  free(text);
-  json_decref(root);
-  return result;
-}
-
-static enum result collect(const char *path, json_t *pages, struct error *error) {
+static enum result run(const struct options *options, struct error *error) {
   struct slab_file *file = NULL;
-  enum result result = slab_file_open(path, &file, error);
-  for (int page = 0; result == RESULT_OK && page < slab_file_pages(file); ++page) {
-    struct slab slab = {0};
-    double flux[3];
-    json_t *root = NULL;
-    result = slab_file_load(file, page, &slab, error);
-    if (result == RESULT_OK) result = slab_json_root(&slab, &root, error);
-    if (result == RESULT_OK && slab_flux_metric(&slab, flux) != RESULT_OK)
-      result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
-    if (result == RESULT_OK)
-      json_array_append_new(pages,
-                            describe(&slab, root, page + 1, slab_file_precision(file, page), flux));
-    json_decref(root);
-    slab_free(&slab);
+  struct page *pages = NULL;
+  enum result result = slab_file_open(options->path, &file, error);
+  int count = result == RESULT_OK ? slab_file_pages(file) : 0;
+  if (result == RESULT_OK && !(pages = calloc((size_t)count, sizeof *pages)))
+    result = result_no_memory(error);
+  for (int n = 0; n < count && result == RESULT_OK; ++n)
+    result = read_page(file, n, &pages[n], error);
+  if (result == RESULT_OK && options->json) result = print_json(options->path, pages, count, error);
+  for (int n = 0; n < count && result == RESULT_OK && !options->json; ++n) {
+    print_page(options->path, &pages[n], n + 1, count);
+    result = print_provenance(&pages[n], error);
   }
+  for (int n = 0; pages && n < count; ++n) {
+    json_decref(pages[n].root);
+    slab_free(&pages[n].slab);
+  }
+  free(pages);
   slab_file_close(file);
   return result;
 }
@@ -194,25 +189,15 @@ int cmd_info(int argc, char **argv) {
       .parser = parse,
       .children = cli_options,
       .args_doc = "SLAB",
-      .doc =
-          "Prints what a light slab is: geometry, samples, flux and peak of each page, and how it "
-          "was made: effects, estimated noise and the rest of its provenance. Flux is the "
-          "integral of the interpolated radiance times the cosine, with lengths in metres: in "
-          "W or lm where the radiance has a unit."
-          "\vExamples:\n"
-          "  bakeslab info lamp.tif\n"
-          "  bakeslab info --json lamp.tif | jq '.pages[0].flux'"};
+      .doc = "Prints what a light slab is: geometry, samples, flux and peak of each page, and how "
+             "it was made: the effects, the estimated noise and the rest of its provenance. Flux "
+             "is the integral of the interpolated radiance times the cosine, with lengths in "
+             "metres: in W or lm where the radiance has a unit."
+             "\vExamples:\n"
+             "  bakeslab info lamp.tif\n"
+             "  bakeslab info --json lamp.tif | jq '.pages[0].flux'"};
   struct options options = {0};
   struct error error = {{0}};
   cli_parse(&argp, argc, argv, &options);
-  unsigned long mark = json_mark();
-  json_t *pages = json_array();
-  enum result result = collect(options.path, pages, &error);
-  if (result == RESULT_OK) result = json_whole(mark, &error);
-  if (result == RESULT_OK && options.json) result = print_json(options.path, pages, mark, &error);
-  for (size_t k = 0; !options.json && result == RESULT_OK && k < json_array_size(pages); ++k)
-    result =
-        print_page(options.path, json_array_get(pages, k), (int)json_array_size(pages), &error);
-  json_decref(pages);
-  return cli_end(result, &error);
+  return cli_end(run(&options, &error), &error);
 }
