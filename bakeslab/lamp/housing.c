@@ -30,13 +30,20 @@ static const char *skip_string(const char *at) {
   return *at ? at + 1 : NULL;
 }
 
-/* The end of the comment or string that starts at `at`, or `at` where none does. */
+/* The end of the comment or string that starts at `at`, or `at` where none does. One without an
+ * end goes on to that of the text. */
 static const char *skip_quiet(const char *at) {
   const char *end = at;
   if (at[0] == '/' && at[1] == '/') return at + strcspn(at, "\n");
   if (at[0] == '/' && at[1] == '*') end = skip_comment(at);
   if (at[0] == '"') end = skip_string(at);
   return end ? end : at + strlen(at);
+}
+
+/* The next character from `at` on that is in no comment or string. */
+static const char *next_code(const char *at) {
+  for (const char *after; (after = skip_quiet(at)) != at;) at = after;
+  return at;
 }
 
 static const char *skip_blanks(const char *at) {
@@ -59,31 +66,25 @@ static size_t name_length(const char *at) {
 static const char *skip_value(const char *at, bool *has_braces) {
   int depth = 0;
   *has_braces = false;
-  while (*at) {
-    const char *after = skip_quiet(at);
-    if (after != at) {
-      at = after;
-      continue;
-    }
+  for (at = next_code(at); *at; at = next_code(at + 1)) {
     if (*at == '{') {
       ++depth;
       *has_braces = true;
     }
     if (*at == '}' && --depth <= 0) return at + 1;
     if (depth == 0 && (*at == ';' || *at == '#')) return *at == ';' ? at + 1 : at;
-    ++at;
   }
   return at;
 }
 
-/* What a # at `at` introduces. */
+/* What a # before `at` introduces. */
 struct directive {
   const char *word; /* not NUL-terminated */
   size_t length;
 };
 
 static struct directive directive_at(const char *at) {
-  struct directive directive = {.word = skip_blanks(at + 1)};
+  struct directive directive = {.word = skip_blanks(at)};
   directive.length = name_length(directive.word);
   return directive;
 }
@@ -139,12 +140,8 @@ static const char *add_declaration(struct script *script, struct directive direc
 
 static bool read_script(const char *at, struct script *script) {
   int depth = 0;
-  while (*at) {
-    const char *after = skip_quiet(at);
-    if (after != at || *at != '#') {
-      at = after != at ? after : at + 1;
-      continue;
-    }
+  while (at && *(at = next_code(at))) {
+    if (*at++ != '#') continue;
     struct directive directive = directive_at(at);
     if (is_one_of(directive, openers)) ++depth;
     if (is_one_of(directive, closers)) --depth;
@@ -152,18 +149,17 @@ static bool read_script(const char *at, struct script *script) {
       at = add_declaration(script, directive, depth > 0);
     else
       at = directive.word + directive.length;
-    if (!at) return false;
   }
-  return true;
+  return at != NULL;
 }
 
 /* Whether the value mentions the name, outside of comments and strings. */
 static bool mentions(const struct declaration *in, const struct declaration *name) {
-  for (const char *at = in->value; at < in->value + in->value_length;) {
-    const char *after = skip_quiet(at);
+  const char *at = next_code(in->value);
+  while (at < in->value + in->value_length) {
     size_t length = name_length(at);
-    if (after == at && length == name->name_length && !memcmp(at, name->name, length)) return true;
-    at = after != at ? after : at + (length ? length : 1);
+    if (length == name->name_length && !memcmp(at, name->name, length)) return true;
+    at = next_code(at + (length ? length : 1));
   }
   return false;
 }
@@ -251,7 +247,7 @@ bool housing_is_harmless(const char *text) {
     if (*at == '{') ++braces;
     if (*at == '}' && --braces < 0) return false;
     if (*at == '#') {
-      struct directive directive = directive_at(at);
+      struct directive directive = directive_at(at + 1);
       if (!is_one_of(directive, allowed)) return false;
       if (is_one_of(directive, openers)) ++blocks;
       if (is_one_of(directive, closers) && --blocks < 0) return false;
