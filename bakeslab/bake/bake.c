@@ -1,6 +1,6 @@
 /* bake.c - from a lamp script to a slab.
  *
- * 1. A trial run of the script (lamp.h) tells the slabs that it declares, the effects that it
+ * 1. A trial run of the script (lamp.h) finds the slabs that it declares, the effects that it
  *    needs, the files that it reads, how bright the lamp is, and which cameras work.
  * 2. Small bakes (probe.h) decide what neither the user nor the script does: effects, windows, the
  *    number of samples.

@@ -1,5 +1,5 @@
-/* bake_provenance.h - what a baked slab says of its making: the JSON value of its
- * "provenance", the same for the same bake on any machine. */
+/* bake_provenance.h - how a slab was baked: the JSON value of its "provenance", the same for the
+ * same bake on any machine. */
 #ifndef BAKE_PROVENANCE_H
 #define BAKE_PROVENANCE_H
 

@@ -1,5 +1,5 @@
 /* projector.c - see projector.h. The st plane is the focus plane, so that radiance depends on
- * (s, t) alone, and focal blur follows from where a slab's rays go. */
+ * (s, t) alone, and focal blur follows from the geometry of the slab. */
 #include "bake/projector.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* projector.h - a hand-crafted light: a slide projector that throws an image (the paper's
- * section 5). Nothing is traced: a ray has the colour that the picture has where it passes the
+/* projector.h - a light made without tracing: a slide projector that throws an image (Heidrich et
+ * al. 1998, section 5). A ray has the colour of the picture where it passes the
  * focus plane. On that plane the picture is sharp. At the distance d, focus and aperture alone
  * spread each point over a rectangle: the aperture times |d - focus|/focus. */
 #ifndef PROJECTOR_H
@@ -8,7 +8,7 @@
 #include "base/picture.h"
 #include "slab/slab.h"
 
-enum { PROJECTOR_ST = 256 }; /* samples along the picture's longer side, unless told */
+enum { PROJECTOR_ST = 256 }; /* at most, along the picture's longer side, unless given */
 
 struct projector {
   double aperture[2]; /* width and height; all lengths in lamp units */
@@ -25,7 +25,7 @@ struct projector {
 /* Refuses what makes no slab whatever the image. Says what is wrong without naming a file. */
 enum result projector_check(const struct projector *projector, struct error *error);
 
-/* The projector at the origin, shining along z, the picture upright for who looks that way: u is
+/* The projector at the origin, shining along z, the picture upright as seen from behind it: u is
  * x, v is y. Samples are the image's means over their cells; more than it has pixels are
  * interpolated. The caller frees the slab. */
 enum result projector_slab(const struct projector *projector, const struct picture *image,

@@ -1,4 +1,4 @@
-/* files.h - small things with files and folders that the bake needs. */
+/* files.h - reading, writing and removing small files and folders. */
 #ifndef FILES_H
 #define FILES_H
 
@@ -21,8 +21,7 @@ enum result files_write(const char *directory, const char *name, const char *tex
 /* Makes a folder; one that is there already is fine. */
 enum result files_make_directory(const char *path, struct error *error);
 
-/* Removes a folder and all that is in it, without following links. Whether
- * anything was left does not matter to callers: it is their own debris. */
+/* Removes a folder and all that is in it, without following links. Failures are ignored. */
 void files_remove_tree(const char *path);
 
 #endif

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Containers are not written front to back, as a pipe wants it. */
+/* TIFF and EXR are not written from front to back, as a pipe needs it: a temporary file first. */
 static enum result begin_stdout(struct output *output, struct error *error) {
   output->target = strdup("stdout");
   if (!output->target) return result_at(result_no_memory(error), error, "stdout");

@@ -7,7 +7,7 @@
 struct progress {
   bool shown;
   double start, drawn; /* seconds */
-  double start_part;   /* what was done before this run */
+  double start_part;   /* of the work, done before this run */
 };
 
 /* Seconds on a clock that never jumps. */

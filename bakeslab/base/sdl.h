@@ -1,5 +1,5 @@
 /* sdl.h - text from elsewhere (names, files, commands) in POV-Ray's scene description
- * language, so that it cannot become anything else there. */
+ * language, quoted so that it cannot become code there. */
 #ifndef SDL_H
 #define SDL_H
 
@@ -7,10 +7,10 @@
 
 #include "base/result.h"
 
-/* A string: POV-Ray knows \" and \\. */
+/* A string, with the escapes \" and \\. */
 void sdl_string(const char *text, FILE *out);
 
-/* Within a comment: a control character must not end the line. */
+/* Within a comment: control characters, which could end the line, become ?. */
 void sdl_comment(const char *text, FILE *out);
 
 /* POV-Ray's identifiers have at most 40 characters, and the longest suffix that an

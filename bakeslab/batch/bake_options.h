@@ -1,4 +1,4 @@
-/* bake_options.h - what is asked of a bake, and what it tells of itself. */
+/* bake_options.h - what a bake is asked for, and what it reports. */
 #ifndef BAKE_OPTIONS_H
 #define BAKE_OPTIONS_H
 

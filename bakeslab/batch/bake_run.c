@@ -138,7 +138,7 @@ static enum result explain_full_disk(const struct bake_store *store, size_t rays
                      store->directory, error->text);
 }
 
-/* Takes POV-Ray's own counts from the log of a finished batch. */
+/* Adds POV-Ray's own counts, from the log of a finished batch. */
 static void count_work(struct run *run, const char *directory) {
   static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
   for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)

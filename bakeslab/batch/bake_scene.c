@@ -98,7 +98,7 @@ static void unit_camera(const struct bake_look *look, const struct slab *slabs,
   bake_offset(look->offsets, box, round->units[unit].pass, offset);
   const struct slab *slab = &slabs[box->page];
   bake_camera(slab, box, offset, camera);
-  if (look->gain != 1) /* backwards along its middle ray */
+  if (look->gain != 1) /* back along its middle ray, behind the filter */
     for (int axis = 0; axis < 3; ++axis)
       camera->origin[axis] += camera_distance(slab) * camera->toward[axis];
 }
@@ -193,7 +193,7 @@ char *bake_scene_text(const struct bake_look *look, const struct slab *slabs, in
 
 /* ---- Reading ---- */
 
-/* Says which sample a ray that is not finite belongs to. */
+/* Names the sample of a ray that is not finite. */
 static enum result refuse_ray(const struct bake_round *round, const struct bake_batch *batch,
                               size_t ray, float value, struct error *error) {
   size_t unit = batch->first;

@@ -143,7 +143,7 @@ int cli_close_stdout(void) {
   if (stdout_status >= 0) return stdout_status;
   bool lost = ferror(stdout) != 0, pending = __fpending(stdout) > 0;
   errno = 0;
-  /* A stdout that was closed from the start is missed by nobody who writes nothing. */
+  /* A stdout that was closed from the start (EBADF) matters only to those who write. */
   if (fclose(stdout) != 0 && (pending || errno != EBADF)) lost = true;
   stdout_status = lost ? failed : CLI_OK;
   if (lost) cli_complain("stdout: %s", errno ? strerror(errno) : "could not be written");
@@ -162,9 +162,9 @@ int cli_end(enum result result, const struct error *error) {
 
 /* ---- What every command's argp shares ---- */
 
-/* argp follows each message by "Try `...' for more information.", and prints that alone where
- * getopt has already told what is wrong. So argp writes into memory, and what comes before "Try"
- * is printed at exit: one line. */
+/* argp follows each message by "Try `...' for more information.", and prints that alone after a
+ * message of getopt's. So argp writes into memory, and what comes before "Try" is printed at exit:
+ * one line. */
 static FILE *usage_stream;
 static char *usage_text;
 static size_t usage_size;

@@ -5,7 +5,7 @@
  * cli_main(). A command is `int cmd_NAME(int argc, char **argv)`. It parses its
  * arguments by argp with cli_options among the children, and returns the exit
  * status: 0 done, 1 failed, 2 usage (a comparing command: 0 same, 1 differ,
- * 2 trouble). Data goes to stdout, talk to stderr; an error is one line. */
+ * 2 trouble). Data goes to stdout, messages to stderr; an error is one line. */
 #ifndef CLI_H
 #define CLI_H
 
@@ -28,7 +28,7 @@ struct cli_program {
   const struct cli_command *commands; /* up to one without a name */
   const char *examples;               /* lines, indented by two blanks; NULL: none */
   const char *exit_status;            /* what the statuses mean, one line */
-  const char *compares;               /* the command that fails with 2, not 1; NULL: none */
+  const char *compares;               /* the comparing command, or NULL */
 };
 
 /* Expands @FILE arguments (arguments.h), then runs the command that argv[1] names,
@@ -64,7 +64,7 @@ extern const struct argp_child cli_options[];
 /* argp_parse with a command's arguments; ends the program where it has no memory. */
 void cli_parse(const struct argp *argp, int argc, char **argv, void *input);
 
-/* Where there is no memory to keep an argument: says so and ends the program as failed. */
+/* Prints "out of memory" and ends the program as failed. */
 void cli_out_of_memory(void) __attribute__((noreturn));
 
 /* Whether -q was given: no notes and no progress. */

@@ -1,5 +1,5 @@
-/* json_text.h - JSON values to text and back, of which nothing is lost: jansson leaves out
- * what finds no memory (a key is not set, a value is not found), and says nothing. */
+/* json_text.h - JSON values to text and back, with a check that nothing is lost: without memory
+ * jansson leaves out a key or a value, and reports nothing. */
 #ifndef JSON_TEXT_H
 #define JSON_TEXT_H
 
@@ -20,8 +20,8 @@ enum result json_text(const json_t *value, unsigned long mark, size_t flags, cha
 /* Reads a text; json_decref frees the value, which is NULL after a failure. */
 enum result json_read(const char *text, size_t flags, json_t **value, struct error *error);
 
-/* A string. Command lines and file names may hold any bytes, JSON only UTF-8: where they are
- * none, ? stands for what is not ASCII. */
+/* A string. Command lines and file names may hold any bytes, JSON only UTF-8: in those that are not
+ * UTF-8, ? stands for each byte that is not ASCII. */
 json_t *json_any_string(const char *text);
 
 #endif

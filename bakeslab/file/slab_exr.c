@@ -1,5 +1,5 @@
 /* slab_exr.c - reads OpenEXR files: scan lines or tiles, half or float, any
- * compression that OpenEXRCore knows. Chunks are the blocks of the raster. */
+ * compression of OpenEXRCore's. A chunk is a block of the raster. */
 #include "file/slab_exr.h"
 
 #include <errno.h>
@@ -24,7 +24,7 @@ struct slab_exr {
   exr_context_t context;
   int fd;
   const char *path; /* not owned */
-  char why[256];    /* the library's latest complaint */
+  char why[256];    /* the library's latest message */
   struct part *parts;
   int count;
 };

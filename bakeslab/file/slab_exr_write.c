@@ -20,8 +20,7 @@ struct writer {
   char why[256]; /* of a write that failed */
 };
 
-/* The library holds its lock while it complains, so asking it for our data
- * here would wait for ever. */
+/* The library holds its lock while it calls this: to ask it for our data would be a deadlock. */
 static void ignore(exr_const_context_t context, exr_result_t code, const char *message) {
   (void)context, (void)code, (void)message;
 }

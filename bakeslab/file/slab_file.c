@@ -1,5 +1,5 @@
-/* slab_file.c - reads slabs from containers: which container it is, what the
- * page's text says, and whether the samples are what they must be. */
+/* slab_file.c - reads slabs from containers: recognises the container, parses the pages' JSON and
+ * checks the samples. */
 #include "file/slab_file.h"
 
 #include <errno.h>
@@ -15,7 +15,7 @@
 #include "file/slab_raster.h"
 #include "file/slab_tiff.h"
 
-enum { CACHED_BLOCKS = 4 }; /* a view that is no tile touches four */
+enum { CACHED_BLOCKS = 4 }; /* a view smaller than a tile lies in up to four */
 
 struct block {
   int page, column, row;
@@ -29,7 +29,7 @@ struct slab_file {
   struct slab *pages; /* geometry only */
   int count;
   struct block cache[CACHED_BLOCKS];
-  int next; /* block to give up next */
+  int next; /* block to replace next */
 };
 
 static struct slab_raster *raster_of(const struct slab_file *file, int page) {

@@ -1,5 +1,5 @@
-/* slab_raster.h - what the containers know of a page: a picture in blocks, and
- * a text. What the picture means as a slab is slab_file.c's business. */
+/* slab_raster.h - a page as a container holds it: a picture in blocks, and a text. slab_file.c
+ * makes a slab of it. */
 #ifndef SLAB_RASTER_H
 #define SLAB_RASTER_H
 

@@ -17,16 +17,16 @@
 struct page {
   struct slab_raster raster;
   bool tiled, separate;
-  uint64_t offset; /* of its directory: by its number libtiff would read all those before */
+  uint64_t offset; /* of its directory: to find it by number, libtiff reads all before it */
 };
 
 struct slab_tiff {
   TIFF *tif;
   const char *path; /* not owned */
-  char why[256];    /* libtiff's latest complaint */
+  char why[256];    /* libtiff's latest message */
   struct page *pages;
   int count;
-  int current;    /* the directory that libtiff stands on */
+  int current;    /* libtiff's directory, or -1 */
   uint64_t bytes; /* of the file */
 };
 
@@ -112,7 +112,7 @@ static enum result find_blocks(struct slab_tiff *tiff, int page, struct error *e
     TIFFGetFieldDefaulted(tiff->tif, TIFFTAG_ROWSPERSTRIP, &block_height);
     if (block_height > height) block_height = height;
   }
-  /* A small page in huge tiles would take more memory than the page says. */
+  /* A small page in huge tiles would take more memory than its size suggests. */
   uint64_t most = (uint64_t)width * height > 1 << 24 ? (uint64_t)width * height : 1 << 24;
   if (block_width < 1 || block_height < 1 || (uint64_t)block_width * block_height > 2 * most)
     return refuse("has tiles of an impossible size", error);
@@ -220,7 +220,7 @@ struct slab_raster *slab_tiff_page(struct slab_tiff *tiff, int page) {
   return &tiff->pages[page].raster;
 }
 
-static bool stand_on(struct slab_tiff *tiff, int page) {
+static bool select_page(struct slab_tiff *tiff, int page) {
   if (tiff->current == page) return true;
   tiff->current = -1;
   if (!TIFFSetSubDirectory(tiff->tif, tiff->pages[page].offset)) return false;
@@ -258,8 +258,8 @@ static void convert(enum slab_precision precision, const void *raw, size_t count
         precision == SLAB_PRECISION_HALF ? slab_half_to_float(halves[k]) : floats[k];
 }
 
-/* No writer puts negative channels into LogLuv: where there is light, they are what its
- * steps of chromaticity make of zeros. */
+/* No writer puts negative channels into LogLuv: where there is light, they come from zeros, by the
+ * rounding of chromaticities. */
 static void decode_xyz(const struct slab_raster *raster, float *pixels, size_t count) {
   for (size_t k = 0; k < count; ++k) {
     double xyz[3];
@@ -279,7 +279,7 @@ static enum result read_block(struct slab_tiff *tiff, int page, int column, int 
   int planes = p->separate ? 3 : 1; /* and the step between a plane's values in a block */
   size_t values = p->separate ? pixels : 3 * pixels;
   *tiff->why = 0;
-  if (!stand_on(tiff, page)) return damaged(tiff, error);
+  if (!select_page(tiff, page)) return damaged(tiff, error);
   void *raw = calloc(values, element);
   if (!raw) return result_no_memory(error);
   enum result result = RESULT_OK;

@@ -58,7 +58,7 @@ static int remember(TIFF *tif, void *data, const char *module, const char *forma
                     va_list arguments) {
   (void)tif, (void)module;
   struct writer *writer = data;
-  if (writer->failed) return 1; /* the first complaint names the cause */
+  if (writer->failed) return 1; /* the first message names the cause */
   writer->failed = true;
   int why = errno; /* libtiff itself does not say that a disk is full */
   int used = vsnprintf(writer->why, sizeof writer->why, format, arguments);
@@ -173,7 +173,7 @@ enum result slab_tiff_write(struct output *output, const struct slab_raster *pag
   }
   for (int page = 0; page < count && !writer.failed; ++page)
     if (!write_page(writer.tif, &pages[page])) writer.failed = true;
-  if (writer.tif) TIFFClose(writer.tif); /* may fail too, and says so to remember() */
+  if (writer.tif) TIFFClose(writer.tif); /* may fail too, and then calls remember() */
   if (!writer.failed) return RESULT_OK;
   return result_fail(error, RESULT_IO, "%s: cannot be written: %s", output->target,
                      *writer.why ? writer.why : "out of memory");

@@ -168,8 +168,8 @@ static bool same_name(const struct declaration *a, const struct declaration *b) 
   return a->name_length == b->name_length && !memcmp(a->name, b->name, a->name_length);
 }
 
-/* Marks what the housing needs, which is declared before. False where the text alone does
- * not tell what a name stands for. */
+/* Marks what the housing needs of what is declared before. False where the text alone does not
+ * decide what a name stands for. */
 static bool mark_needed(struct script *script, size_t housing) {
   struct declaration *all = script->declarations;
   all[housing].needed = true;
@@ -270,7 +270,7 @@ enum result housing_parses(const struct povray *povray, const char *housing, con
   enum result result = files_make_directory(directory, error);
   if (result == RESULT_OK) result = files_write(directory, "scene.pov", scene, error);
   if (result == RESULT_OK) result = povray_run(povray, &job, error);
-  /* A picture that cannot be written says nothing about the text. */
+  /* A picture that cannot be written is no fault of the text. */
   if (result == RESULT_BAD && strstr(error->text, "Fatal error") &&
       !strstr(error->text, "in parser"))
     result = RESULT_IO;

@@ -8,7 +8,7 @@
 #include "lamp/lamp.h"
 
 /* SDL that stands for the housing inside a macro, or NULL where the script declares none.
- * The text is empty, which does not parse, where the script alone does not tell what the
+ * The text is empty, which does not parse, where the script alone does not decide what the
  * housing is: it, or a name that it needs, is declared twice or inside #if, #while, #macro
  * and the like. The caller frees it. */
 char *housing_find(const char *script); /* NULL and errno ENOMEM: no memory */

@@ -40,7 +40,7 @@ static bool read_bulb(const char *value, struct lamp *lamp) {
   return true;
 }
 
-/* What the script says of the lamp as a whole. */
+/* Keys of the lamp as a whole. */
 static bool read_of_lamp(const char *key, const char *value, struct lamp *lamp,
                          struct slab *common) {
   if (!strcmp(key, "lamp")) return read_text(value, common->name, sizeof common->name);
@@ -53,7 +53,7 @@ static bool read_of_lamp(const char *key, const char *value, struct lamp *lamp,
   return read_text(value, lamp->needs, sizeof lamp->needs);
 }
 
-/* What it says of the latest "slab". */
+/* Keys of the latest "slab". */
 static bool read_of_slab(const char *key, const char *value, struct slab *slab) {
   const struct {
     const char *key;

@@ -9,9 +9,8 @@
 
 #include "base/output.h"
 
-/* A name as GNU make wants it in a rule: most of what it takes for its own syntax can be
- * quoted, an equals sign only by way of an expansion. A percent sign means something in
- * targets only. */
+/* A name, quoted for a rule of GNU make's. An equals sign cannot be quoted and is put in by an
+ * expansion. A percent sign is special in targets only. */
 static void put_name(FILE *rule, const char *name, bool target) {
   if (name[0] == '~') fputs("./", rule);
   size_t backslashes = 0;
@@ -82,7 +81,7 @@ static enum result check_path(const struct lamp_reads *reads, const char *target
   return result;
 }
 
-/* The rule under a temporary name, if the path takes one. */
+/* Writes the rule under a temporary name; output_commit gives it its own. */
 static enum result prepare(const struct lamp_reads *reads, const char *script, const char *target,
                            const char *path, struct output *output, struct error *error) {
   char *text = NULL;

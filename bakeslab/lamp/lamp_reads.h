@@ -13,7 +13,7 @@ struct lamp_reads {
   char key[33]; /* of all files' content, whatever folders they lie in */
 };
 
-/* Takes the list that a POV-Ray left in `directory`; files in that folder itself don't
+/* Reads the list that POV-Ray left in `directory`; files in that folder itself don't
  * count. `script` must be among the others; `name` is what the user calls it. Free with
  * lamp_reads_free in any case. */
 enum result lamp_reads_collect(const char *directory, const char *script, const char *name,

@@ -1,8 +1,7 @@
 /* reads.c - preloaded into POV-Ray while it parses a lamp script: lists every
  * file that it opens for reading, one path a line, in the file that the
- * environment variable CANNED_READS names. POV-Ray can't tell by itself which
- * includes and images a script depends on, and file names in scripts may be
- * computed, so that reading the script does not tell either. */
+ * environment variable CANNED_READS names. POV-Ray has no option for that, and
+ * file names in scripts may be computed, so that the script's text does not show them. */
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* probe_bake.h - a small bake that tells something of the full one to come. Its batches are kept
+/* probe_bake.h - a small bake, by which the full one is planned. Its batches are kept
  * like all others: the same small bake again costs nothing. */
 #ifndef PROBE_BAKE_H
 #define PROBE_BAKE_H

@@ -2,10 +2,9 @@
  * closed box around it, and no other page emits it again.
  *
  * The box stands on the aperture's plane: its lid and walls are an aperture's width (the longer
- * edge) away from it. The flux on them is an integral of irradiance over points of the box, of
- * rays as a renderer looks them up; it shares nothing but the samples with slab_flux, which
- * integrates over the aperture and the window. Quasi-random, always the same; a fraction of a
- * second. */
+ * edge) away from it. The flux on them is an integral of irradiance over points of the box, by
+ * lookups of rays as in a renderer. slab_flux integrates over the aperture and the window instead,
+ * and shares only the samples with it. Quasi-random, always the same; a fraction of a second. */
 #ifndef FLUX_BOX_H
 #define FLUX_BOX_H
 

@@ -1,7 +1,6 @@
-/* plane.h - what a slab does to a plane: its irradiance, integrated densely, on
- * receivers that cover the part of a plane parallel to the aperture which the
- * window lets light reach. Approximations of the slab are fitted to it, and
- * their errors told against it. */
+/* plane.h - the irradiance of a slab on a plane parallel to the aperture, integrated densely, at
+ * receivers that cover the part of the plane that light can reach through the window.
+ * Approximations of the slab are fitted to it and compared with it. */
 #ifndef PLANE_H
 #define PLANE_H
 
@@ -36,8 +35,8 @@ double plane_fan_step(const struct plane *plane);
 void plane_irradiance(const struct slab *slab, const int points[2], const double at[2],
                       double distance, double rgb[3]);
 
-/* Length of the aperture's edge along SLAB_U or SLAB_V; the longer of both, in
- * which distances are told. */
+/* Length of the aperture's edge along SLAB_U or SLAB_V; the longer of both, the unit
+ * of relative distances. */
 double plane_edge(const struct slab *slab, int axis);
 double plane_width(const struct slab *slab);
 

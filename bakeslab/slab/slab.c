@@ -1,4 +1,4 @@
-/* slab.c - geometry, samples and lookup of a light slab, as slab.h says. */
+/* slab.c - geometry, samples and lookup of a light slab; see slab.h. */
 #include "slab/slab.h"
 
 #include <limits.h>

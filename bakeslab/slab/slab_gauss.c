@@ -7,27 +7,27 @@
 #include <string.h>
 
 /* Eigenvalues of the symmetric tridiagonal matrix with `diagonal` and
- * `beside` (beside[k] couples k and k + 1), and the first components of its
+ * `off` (off[k] couples k and k + 1), and the first components of its
  * eigenvectors, by QL with implicit shifts. */
-static void eigen(int n, double *diagonal, double *beside, double *first) {
+static void eigen(int n, double *diagonal, double *off, double *first) {
   for (int k = 0; k < n; ++k) first[k] = k == 0;
-  beside[n - 1] = 0;
+  off[n - 1] = 0;
   for (int l = 0; l < n; ++l)
     for (int sweep = 0; sweep < 60; ++sweep) {
       int m = l;
-      while (m < n - 1 && fabs(beside[m]) > 1e-17 * (fabs(diagonal[m]) + fabs(diagonal[m + 1])))
+      while (m < n - 1 && fabs(off[m]) > 1e-17 * (fabs(diagonal[m]) + fabs(diagonal[m + 1])))
         ++m;
       if (m == l) break;
-      double g = (diagonal[l + 1] - diagonal[l]) / (2 * beside[l]);
-      g = diagonal[m] - diagonal[l] + beside[l] / (g + copysign(hypot(g, 1), g));
+      double g = (diagonal[l + 1] - diagonal[l]) / (2 * off[l]);
+      g = diagonal[m] - diagonal[l] + off[l] / (g + copysign(hypot(g, 1), g));
       double sine = 1, cosine = 1, p = 0;
       for (int k = m - 1; k >= l; --k) {
-        double f = sine * beside[k], b = cosine * beside[k];
+        double f = sine * off[k], b = cosine * off[k];
         double r = hypot(f, g);
-        beside[k + 1] = r;
+        off[k + 1] = r;
         if (r == 0) { /* split: the shift hit an eigenvalue */
           diagonal[k + 1] -= p;
-          beside[m] = 0;
+          off[m] = 0;
           break;
         }
         sine = f / r;
@@ -42,26 +42,26 @@ static void eigen(int n, double *diagonal, double *beside, double *first) {
         first[k] = cosine * first[k] - sine * f;
         if (k == l) {
           diagonal[l] -= p;
-          beside[l] = g;
-          beside[m] = 0;
+          off[l] = g;
+          off[m] = 0;
         }
       }
     }
 }
 
 void slab_gauss_legendre(int n, double *nodes, double *weights) {
-  double beside[SLAB_GAUSS_MAX];
+  double off[SLAB_GAUSS_MAX];
   for (int k = 0; k < n; ++k) {
     nodes[k] = 0;
-    beside[k] = (k + 1) / sqrt(4.0 * (k + 1) * (k + 1) - 1);
+    off[k] = (k + 1) / sqrt(4.0 * (k + 1) * (k + 1) - 1);
   }
-  eigen(n, nodes, beside, weights);
+  eigen(n, nodes, off, weights);
   for (int k = 0; k < n; ++k) weights[k] = 2 * weights[k] * weights[k];
 }
 
 int slab_gauss_compress(int count, const double *x, const double *w, int n, double *nodes,
                         double *weights, double *scratch) {
-  double total = 0, beside[SLAB_GAUSS_MAX];
+  double total = 0, off[SLAB_GAUSS_MAX];
   for (int k = 0; k < count; ++k) total += w[k];
   if (!(total > 0)) return 0;
   if (n > count) n = count;
@@ -79,12 +79,12 @@ int slab_gauss_compress(int count, const double *x, const double *w, int n, doub
       here[k] = next;
       next_norm += w[k] * next * next;
     }
-    beside[degree] = sqrt(next_norm / norm);
+    off[degree] = sqrt(next_norm / norm);
     norm_before = norm;
     norm = next_norm;
     if (!(norm > 0)) n = degree + 1;
   }
-  eigen(n, nodes, beside, weights);
+  eigen(n, nodes, off, weights);
   for (int k = 0; k < n; ++k) weights[k] = total * weights[k] * weights[k];
   return n;
 }

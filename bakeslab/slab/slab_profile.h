@@ -1,4 +1,5 @@
-/* slab_profile.h - where along its axes a slab has light, and whether that ends there. */
+/* slab_profile.h - the mean radiance along each axis of a slab, and whether its borders cut light
+ * off. */
 #ifndef SLAB_PROFILE_H
 #define SLAB_PROFILE_H
 
@@ -15,11 +16,10 @@ enum result slab_profile(const struct slab *slab, struct slab_profile *profile,
                          struct error *error);
 void slab_profile_free(struct slab_profile *profile);
 
-/* The part of an axis's brightest sample that the last one at its low (0) or high (1) end
- * has, where that is so bright that light must be cut off there; else 0. Light that fades
- * out leaves the ends of the st window dark: more than 2 % is too much. The uv rectangle
- * usually ends where the lamp's opening does, so only 50 % says that this may go on. A
- * 1-wide axis says nothing. */
+/* The last sample at the low (0) or high (1) end of an axis, relative to the axis's brightest, if
+ * that is above the limit, so that light must be cut off there; else 0. The limit is 2 % for s and
+ * t, since light fades out towards the ends of the window, and 50 % for u and v, since the uv
+ * rectangle usually ends where the lamp's opening does. 0 for an axis of one sample. */
 double slab_profile_cut_off(const struct slab_profile *profile, int axis, int end);
 double slab_profile_limit(int axis);
 

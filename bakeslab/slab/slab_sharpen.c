@@ -2,8 +2,8 @@
  * [t][s][rgb].
  *
  * 1. Solve A x = m along all lines of s, then of t: m are the view's samples, which are means over
- *    cells, and A is the matrix that interpolates x and takes the means again. It is tridiagonal:
- *    elimination without pivots, since the diagonal dominates.
+ *    cells, and A is the matrix of interpolation and means over cells (slab_sharpen.h). It is
+ * tridiagonal: elimination without pivots, since the diagonal dominates.
  * 2. EXACT ends here. POSITIVE goes on where a sample became negative, by flux-corrected transport
  *    (Zalesak 1979). The low-order solution is m itself. The antidiffusive flux between neighbours
  *    is what the exact solution moves between them.
