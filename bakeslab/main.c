@@ -5,10 +5,10 @@
 static const struct cli_command commands[] = {
     {"bake", cmd_bake, "render a lamp with POV-Ray into a light slab"},
     {"info", cmd_info, "geometry, samples, flux, peak and provenance of a slab"},
-    {"check", cmd_check, "validate a slab and warn where its light is cut off"},
+    {"check", cmd_check, "validate a slab; warn when it misses light, loses it or counts it twice"},
     {"lookup", cmd_lookup, "radiance of rays read from stdin"},
     {"projector", cmd_projector, "make the slab of a slide projector from an image"},
-    {"convert", cmd_convert, "other container, precision or resolution"},
+    {"convert", cmd_convert, "change the container, precision or resolution"},
     {"diff", cmd_diff, "compare two slabs"},
     {"include", cmd_include, "write a POV-Ray include that lights a scene"},
     {0}};

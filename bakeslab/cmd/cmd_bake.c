@@ -39,52 +39,51 @@ enum {
 };
 
 static const struct argp_option options[] = {
-    {0, 'o', "SLAB", 0, "the slab to write: .tif (LogLuv unless --precision says else) or .exr", 1},
+    {0, 'o', "SLAB", 0, "the slab to write: .tif (LogLuv unless --precision is given) or .exr", 1},
     {"uv", OPTION_UV, "NxM", 0, "positions on the aperture (default 16x16)", 1},
-    {"st", OPTION_ST, "NxM", 0, "directions a position (default 64x64)", 1},
-    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "of the samples in the file", 1},
+    {"st", OPTION_ST, "NxM", 0, "directions at each position (default 64x64)", 1},
+    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "number format of the samples", 1},
     {"rays", OPTION_RAYS, "K", 0,
      "rays a sample, on average: 1 or an even number (default 16). A sample is the mean over "
-     "its 4D cell; 4 rays are shot everywhere, the rest where those were noisy",
+     "its 4D cell; the first 4 rays are shot everywhere, the others where those are noisy",
      2},
-    {"rays-max", OPTION_RAYS_MAX, "K", 0, "rays for the noisiest samples (default 4 x --rays)", 2},
-    {"uniform", OPTION_UNIFORM, 0, 0, "the same rays for all samples, as many everywhere", 2},
+    {"rays-max", OPTION_RAYS_MAX, "K", 0, "the most rays for a sample (default 4 x --rays)", 2},
+    {"uniform", OPTION_UNIFORM, 0, 0,
+     "the same number of rays for all samples, at the same places of their cells", 2},
     {"centre", OPTION_CENTRE, 0, 0,
-     "one ray through each sample's centre, the plain algorithm: fast, but fine parts of a lamp "
-     "alias",
-     2},
+     "one ray through the centre of each sample: fast, but fine parts of a lamp alias", 2},
     {"effects", OPTION_EFFECTS, "auto|probe|all|none|LIST", 0,
-     "interreflection, caustics, extended_source, deep_trace (default auto: what the lamp's "
-     "Canned_Needs says, else probe: those that small bakes show to matter). A word may say how "
-     "far: interreflection=4 bounces, caustics=100000 photons, extended_source=9 lights a side, "
-     "deep_trace=60 levels",
+     "which of interreflection, caustics, extended_source and deep_trace to simulate. probe: "
+     "those that short test bakes show to matter. auto (the default): those of the lamp's "
+     "Canned_Needs; without it, probe. A number says how far to go: interreflection=4 bounces, "
+     "caustics=100000 photons, extended_source=9 lights a side, deep_trace=60 levels",
      3},
     {"effect-threshold", OPTION_THRESHOLD, "X", 0,
-     "an effect matters if it changes the flux by more than this part of it, or samples by "
-     "twice that in RMS (default 0.01)",
+     "an effect matters if it changes the flux by more than this part of it, or the light by "
+     "direction or position by twice that, in RMS (default 0.01)",
      3},
     {"window", OPTION_WINDOW, "declared|auto", 0,
-     "auto: the st windows are fitted to the light, within what the script declares", 3},
+     "auto: fit the st windows to the light, within those that the script declares", 3},
     {"tolerance", OPTION_TOLERANCE, "T", 0,
-     "find the fewest samples by which irradiance is right to T (relative RMS), at "
-     "--for-distance and beyond; an explicit --uv or --st stays",
+     "choose the fewest samples for which the error of irradiance is at most T (relative RMS) at "
+     "--for-distance and beyond; --uv and --st, where given, stay",
      3},
     {"for-distance", OPTION_DISTANCE, "D", 0,
-     "of the nearest thing that is lit, in lamp units (default 4 apertures, --tolerance 0.01): "
-     "the st plane is put there where that needs fewer samples",
+     "distance of the nearest surface that is lit, in lamp units (default 4 apertures); sets "
+     "--tolerance 0.01 if none is given. The st plane is put there if that needs fewer samples",
      3},
     {"gain", OPTION_GAIN, "2^N", 0,
-     "brightness at which POV-Ray renders, undone in the slab; its pictures hold radiance up "
-     "to 65504 (default: from a probe)",
+     "factor by which POV-Ray renders brighter, undone in the slab; its pictures hold radiance "
+     "up to 65504 (default: chosen by a trial run)",
      3},
     {"camera", OPTION_CAMERA, "mesh|perspective|transposed", 0,
-     "how POV-Ray is asked: many views an image, one view a frame, one direction a frame "
-     "(default: the cheapest)",
+     "what POV-Ray renders: many views in an image, one view a frame, or one direction a frame "
+     "(default: the fastest)",
      3},
-    {"jobs", 'j', "N", 0, "POV-Ray processes rendering at a time (default: one a processor)", 4},
+    {"jobs", 'j', "N", 0, "POV-Ray processes at a time (default: one a processor)", 4},
     {"shard", OPTION_SHARD, "K/N", 0,
-     "bake the K-th of N parts (from 1) of the batches into SLAB.partial and stop there; the "
-     "run without --shard bakes what is missing and assembles the slab",
+     "bake only part K of N (from 1) into SLAB.partial; a run without --shard bakes what is "
+     "missing and writes the slab",
      4},
     {"povray", OPTION_POVRAY, "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
     {"sandbox", OPTION_SANDBOX, 0, 0,
@@ -92,26 +91,29 @@ static const struct argp_option options[] = {
      "folder, and has no network",
      4},
     {"depend", OPTION_DEPEND, "FILE", 0,
-     "write a rule for make there: SLAB depends on every file that the script reads (as gcc's "
-     "-MD -MF FILE -MP)",
+     "write a rule for make: SLAB depends on every file that the script reads (as gcc's -MD -MF "
+     "FILE -MP)",
      4},
-    {0, 'L', "FOLDER", 0, "where the script finds more files; may be repeated", 4},
+    {0, 'L', "FOLDER", 0, "where the script finds files to include; may be repeated", 4},
     {0}};
 
 static const char usage[] = "LAMP.pov -o SLAB";
 static const char doc[] =
     "Renders a lamp script with POV-Ray into a light slab.\v"
     "The script declares its slabs with the macros of canned.inc, which bakeslab finds by itself. "
-    "Finished batches are kept in SLAB.partial until the slab is written: after Ctrl-C, a crash "
-    "or a full disk the same command goes on from them.\n"
+    "Effects that it does not declare are chosen by short test bakes; so are the window with "
+    "--window auto and the number of samples with --tolerance. Finished batches are kept in "
+    "SLAB.partial until the slab is written: after Ctrl-C, a crash or a full disk, run the same "
+    "command again to go on from there.\n"
     "\n"
-    "The samples are the same, bit for bit, for any --jobs and --shard. They are the same for "
-    "any --camera too with --uniform or --centre; otherwise each view (or, transposed, each "
-    "direction) shifts its rays for itself, so that mesh and perspective agree. With "
-    "interreflection each batch gathers light for itself, and --camera lays out other batches.\n"
+    "The samples are the same, bit for bit, for any --jobs and --shard. With --uniform or "
+    "--centre they are the same for any --camera too. Otherwise each view, or with transposed "
+    "each direction, has its own offsets of rays: mesh and perspective give the same samples, "
+    "transposed gives others. With interreflection each --camera gives slightly other samples, "
+    "since it is sampled anew in each batch.\n"
     "\n"
-    "A lamp script is a program: POV-Ray runs it with your rights. With --sandbox it can still "
-    "read all that you can, but change nothing and tell nobody.\n"
+    "A lamp script is a program that POV-Ray runs with your permissions. With --sandbox it can "
+    "read what you can read, but it cannot change files or use the network.\n"
     "\n"
     "Examples:\n"
     "  bakeslab bake parabolic.pov -o parabolic.tif\n"

@@ -174,8 +174,8 @@ static enum result check_file(const char *path, bool errors, int *warnings, stru
 int cmd_check(int argc, char **argv) {
   static const struct argp_option option[] = {
       {"strict", OPTION_STRICT, NULL, 0, "Exit with 1 after a warning too", 0},
-      {"error", OPTION_ERROR, NULL, 0,
-       "Estimate the slab's own error, below which no method's digits mean anything", 0},
+      {"error", OPTION_ERROR, NULL, 0, "Estimate the slab's own error: no method is more accurate",
+       0},
       {0}};
   static const struct argp argp = {
       .options = option,
@@ -184,23 +184,23 @@ int cmd_check(int argc, char **argv) {
       .args_doc = "SLAB...",
       .doc =
           "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
-          "standard output, where light is cut off: where the mean radiance of the last samples "
-          "of s or t is more than 2 % of that axis's brightest (enlarge the st window), and of "
-          "u or v more than 50 % (the lamp's opening fills the rectangle and may go on beyond "
-          "it). Compares the flux at the aperture with what arrives on a closed box around it, "
-          "an aperture's width (the longer edge) away, as a sum over some 10^6 rays, and tells "
-          "how far that sum is to be trusted; warns where they differ by 1 % more than that, "
-          "and where more than 1 % of the flux of a page leaves through another page's aperture "
-          "too, so that the lamp gives it twice. A warning is not an error.\n\n"
-          "With --error, it tells how far the irradiance of a surface that faces the slab is "
-          "off the lamp's, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
-          "in brackets): the RMS of the error over the RMS of the irradiance. It is told from "
-          "the slab alone: by what halving its resolution changes, for st and for uv, and by "
-          "the noise that the bake recorded, which sharpening and resampling forget. Take it for "
-          "the size of the error: of 54 test lamps that had no part in its making, it was "
-          "within a factor of 2 for 45, and from 0.4 to 8 times the truth for all; for 38 of "
-          "54, and up to 12 times, once sharpened. It is too small for hard edges seen from "
-          "afar, and where a few rays a sample are all wrong alike."
+          "standard output, when a slab misses light, loses it, or counts it twice. A warning is "
+          "not an error.\n\n"
+          "A slab misses light where the mean radiance of the last samples of s or t is more than "
+          "2 % of that axis's brightest (enlarge the st window), or of u or v more than 50 % (the "
+          "lamp's opening may be larger than the rectangle). It loses light where the flux at the "
+          "aperture differs from the flux on a closed box around it, an aperture's width (the "
+          "longer edge) away, by 1 % more than the uncertainty of the latter, a sum over some "
+          "10^6 rays. It counts light twice where more than 1 % of the flux of a page leaves "
+          "through another page's aperture too.\n\n"
+          "--error estimates the error of irradiance on a surface that faces the slab, against "
+          "the lamp itself, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
+          "in brackets): the RMS of the error over the RMS of the irradiance. The estimate needs "
+          "only the slab: it follows from what halving the resolution changes, for st and for uv, "
+          "and from the noise that the bake recorded, which sharpening and resampling drop. For "
+          "45 of 54 test lamps it was within a factor of 2 of the true error, and for all from "
+          "0.4 to 8 times; for sharpened slabs 38 of 54, and up to 12 times. It is too small for "
+          "hard edges seen from afar, and where the few rays of a sample all have the same error."
           "\vExamples:\n"
           "  bakeslab check lamp.tif\n"
           "  bakeslab check --error lamp.tif\n"

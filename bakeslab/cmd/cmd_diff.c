@@ -123,8 +123,8 @@ int cmd_diff(int argc, char **argv) {
       .children = cli_options,
       .args_doc = "A B",
       .doc = "Compares two light slabs page by page: RMSE, largest difference, flux (as bakeslab "
-             "info tells it). Slabs with other frames or numbers of samples differ; "
-             "bakeslab convert brings them together."
+             "info prints it). Slabs whose geometry or numbers of samples are not the same differ; "
+             "bakeslab convert changes the numbers of samples."
              "\vExit status: 0 same, 1 they differ, 2 trouble.\n"
              "\n"
              "Examples:\n"

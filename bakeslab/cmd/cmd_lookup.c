@@ -179,8 +179,8 @@ int cmd_lookup(int argc, char **argv) {
       .children = cli_options,
       .args_doc = "SLAB",
       .doc = "Reads rays `ox oy oz dx dy dz` in lamp space from standard input, one a line, and "
-             "prints the radiance `r g b` that leaves the lamp along each. A ray is a whole line: "
-             "it does not matter where on it the origin lies. Empty lines and lines that start "
+             "prints the radiance `r g b` that leaves the lamp along each. The origin may be any "
+             "point of the ray, before or behind the aperture. Empty lines and lines that start "
              "with # are skipped."
              "\vExamples:\n"
              "  echo 0 -1 0  0 -1 0 | bakeslab lookup lamp.tif\n"

@@ -32,13 +32,13 @@ enum {
 
 static const struct argp_option options[] = {
     {"output", 'o', "SLAB", 0,
-     "The slab to write: .tif (LogLuv unless --precision says else) or .exr", 1},
+     "The slab to write: .tif (LogLuv unless --precision is given) or .exr", 1},
     {"aperture", OPTION_APERTURE, "W[xH]", 0, "Size of the opening that the light comes from", 1},
     {"focus", OPTION_FOCUS, "D", 0, "Distance at which the picture is sharp", 1},
-    {"width", OPTION_WIDTH, "W", 0, "Of the picture there; its pixels are square", 1},
+    {"width", OPTION_WIDTH, "W", 0, "Width of the picture there; its pixels are square", 1},
     {"uv", OPTION_UV, "NxM", 0,
-     "Positions on the aperture (default 8x8): all with the same samples, for methods that sum "
-     "over positions; 1x1 is as exact for those that integrate",
+     "Positions on the aperture (default 8x8), all with the same samples: methods that sum over "
+     "positions need some, for those that integrate 1x1 is as exact",
      2},
     {"st", OPTION_ST, "NxM", 0,
      "Samples of the picture (default: the image's pixels, at most 256 along the longer side). "
@@ -46,22 +46,23 @@ static const struct argp_option options[] = {
      2},
     {"white", OPTION_WHITE, "L", 0, "Radiance where the image is 1 (default 1)", 3},
     {"flux", OPTION_FLUX, "F", 0,
-     "Flux with an all-white picture instead, as projectors are sold by: lumens for --unit cd/m2, "
-     "watts for W/(sr m2)",
+     "Flux of an all-white picture instead, as on a data sheet: lumens for --unit cd/m2, watts "
+     "for W/(sr m2)",
      3},
-    {"unit", OPTION_UNIT, "UNIT", 0, "Of radiance: cd/m2, W/(sr m2) or relative (the default)", 3},
+    {"unit", OPTION_UNIT, "UNIT", 0, "Unit of radiance: cd/m2, W/(sr m2) or relative (the default)",
+     3},
     {"metres-per-unit", OPTION_METRES, "M", 0, "Length of a lamp unit in metres (default 1)", 3},
-    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "Of the samples in the file", 1},
+    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "Number format of the samples", 1},
     {0}};
 
 static const char doc[] =
     "Makes the light slab of a slide projector from an image. Each ray from the aperture has the "
-    "colour of the picture where it passes the focus plane. So a screen there shows the picture "
-    "sharp; at the distance d each point of it is blurred over a rectangle, the aperture times "
-    "|d - D|/D; and towards the corners it gets darker by the cosines."
+    "colour of the picture where it passes the focus plane. A screen there shows the picture "
+    "sharp. At the distance d each point of it is blurred over a rectangle, the aperture times "
+    "|d - D|/D. Towards the corners it gets darker, by the cosines."
     "\v"
-    "The projector is at the origin and shines along +z; the picture is upright (+y), and not "
-    "mirrored for who looks along with the light.\n"
+    "The projector is at the origin and shines along +z. The picture is upright (+y) and not "
+    "mirrored, as seen from the projector.\n"
     "\n"
     "IMAGE is PNG, JPEG, TIFF, EXR or what else oiiotool reads. Floating-point files are linear, "
     "others sRGB unless they say that they are linear. Transparent pixels are refused. The lamp's "
