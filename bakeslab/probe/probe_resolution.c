@@ -54,32 +54,22 @@ static struct power_law make_law(double full, double halved) {
   return (struct power_law){isfinite(full) ? full : 0, fmin(fmax(power, 1), 2)};
 }
 
-/* The errors of all pages at all distances, for one choice of st plane. */
-struct plane_errors {
-  struct slab *slabs; /* geometry, owned */
-  int count;
-  struct power_law (*st)[DISTANCES], (*uv)[DISTANCES]; /* by page; owned */
+/* A page's errors at all distances, for one choice of st plane. */
+struct page_errors {
+  struct power_law st[DISTANCES], uv[DISTANCES];
 };
 
-static void free_errors(struct plane_errors *errors) {
-  for (int n = 0; n < errors->count; ++n) slab_free(&errors->slabs[n]);
-  free(errors->slabs);
-  free(errors->st);
-  free(errors->uv);
-}
-
-static double worst(const struct plane_errors *errors, int uv, int st) {
+static double worst(const struct page_errors *errors, int pages, int uv, int st) {
   double most = 0;
-  for (int n = 0; n < errors->count; ++n)
+  for (int n = 0; n < pages; ++n)
     for (int k = 0; k < DISTANCES; ++k)
-      most = fmax(most, error_at(&errors->st[n][k], (double)st / probe_samples[SLAB_S]) +
-                            error_at(&errors->uv[n][k], (double)uv / probe_samples[SLAB_U]));
+      most = fmax(most, error_at(&errors[n].st[k], (double)st / probe_samples[SLAB_S]) +
+                            error_at(&errors[n].uv[k], (double)uv / probe_samples[SLAB_U]));
   return most;
 }
 
 static enum result estimate_page(const struct slab *page, double distance,
-                                 struct power_law st[DISTANCES], struct power_law uv[DISTANCES],
-                                 struct error *error) {
+                                 struct page_errors *errors, struct error *error) {
   int halved[SLAB_AXES];
   double at[DISTANCES];
   struct slab half = {0};
@@ -93,8 +83,8 @@ static enum result estimate_page(const struct slab *page, double distance,
   if (result == RESULT_OK)
     result = slab_accuracy_estimate(&half, &unknown, DISTANCES, at, less, error);
   for (int k = 0; k < DISTANCES && result == RESULT_OK; ++k) {
-    st[k] = make_law(full[k].st, less[k].st);
-    uv[k] = make_law(full[k].uv, less[k].uv);
+    errors->st[k] = make_law(full[k].st, less[k].st);
+    errors->uv[k] = make_law(full[k].uv, less[k].uv);
   }
   slab_free(&half);
   return result;
@@ -116,30 +106,25 @@ static double distance_of(const struct bake_work *work, const struct slab *slab)
 }
 
 /* Steps 1 and 2 for the st planes as they are, or moved to the distance. */
-static enum result estimate_plane(const struct bake_work *work, const struct slab *slabs,
-                                  bool moved, struct plane_errors *errors,
+static enum result estimate_pages(const struct bake_work *work, const struct slab *slabs,
+                                  bool moved, struct page_errors *errors,
                                   struct bake_report *report, struct error *error) {
-  size_t count = (size_t)work->lamp->slab_count;
+  int pages = work->lamp->slab_count;
   struct effects effects = *work->look.effects;
   struct probe_bake bake = {0};
-  *errors = (struct plane_errors){.slabs = calloc(count, sizeof *errors->slabs),
-                                  .st = calloc(count, sizeof *errors->st),
-                                  .uv = calloc(count, sizeof *errors->uv)};
-  enum result result =
-      errors->slabs && errors->st && errors->uv ? RESULT_OK : result_no_memory(error);
-  for (; errors->count < (int)count && result == RESULT_OK; ++errors->count) {
-    struct slab *slab = &errors->slabs[errors->count];
-    result = slab_copy_geometry(&slabs[errors->count], slab, error);
-    if (moved) move_plane(slab, work->options->for_distance);
+  struct slab *geometry = malloc((size_t)pages * sizeof *geometry); /* owns nothing */
+  enum result result = geometry ? RESULT_OK : result_no_memory(error);
+  for (int n = 0; n < pages && result == RESULT_OK; ++n) {
+    geometry[n] = slabs[n];
+    if (moved) move_plane(&geometry[n], work->options->for_distance);
   }
   effects.setting[INTERREFLECTION] = 0;
   if (result == RESULT_OK)
-    result =
-        probe_bake(work, errors->slabs, &effects, probe_samples, PROBE_RAYS, &bake, report, error);
-  for (int n = 0; n < errors->count && result == RESULT_OK; ++n)
-    result = estimate_page(&bake.pages[n], distance_of(work, &bake.pages[n]), errors->st[n],
-                           errors->uv[n], error);
+    result = probe_bake(work, geometry, &effects, probe_samples, PROBE_RAYS, &bake, report, error);
+  for (int n = 0; n < pages && result == RESULT_OK; ++n)
+    result = estimate_page(&bake.pages[n], distance_of(work, &bake.pages[n]), &errors[n], error);
   probe_bake_free(&bake);
+  free(geometry);
   return result;
 }
 
@@ -160,14 +145,15 @@ static bool is_better(const struct choice *a, const struct choice *b, double tol
 }
 
 /* Steps 3 and 4. */
-static struct choice choose(const struct plane_errors *errors, const struct bake_options *options) {
+static struct choice choose(const struct page_errors *errors, int pages,
+                            const struct bake_options *options) {
   struct choice best = {0};
   for (size_t n = 0; n < COUNT(uv_ladder); ++n)
     for (size_t k = 0; k < COUNT(st_ladder); ++k) {
       struct choice next = {uv_ladder[n], st_ladder[k], 0};
       if (!options->uv_free) next.uv = options->uv[0];
       if (!options->st_free) next.st = options->st[0];
-      next.error = worst(errors, next.uv, next.st);
+      next.error = worst(errors, pages, next.uv, next.st);
       if (best.uv && samples_of(&next) > most_samples) continue;
       if (best.uv == 0 || is_better(&next, &best, options->tolerance)) best = next;
     }
@@ -189,18 +175,15 @@ static void say(const struct bake_options *options, const struct choice *choice,
 }
 
 /* Gives the pages the samples chosen, and the st plane that they were chosen for. */
-static void apply(const struct bake_work *work, const struct choice *choice,
-                  const struct plane_errors *plane, struct slab *slabs,
-                  struct probe_resolution *resolution) {
+static void apply(const struct bake_work *work, const struct choice *choice, bool moved,
+                  struct slab *slabs, struct probe_resolution *resolution) {
   const struct bake_options *options = work->options;
-  for (int n = 0; n < plane->count; ++n) {
-    for (int axis = 0; axis < 4; ++axis) {
-      bool positions = axis < SLAB_S, free = positions ? options->uv_free : options->st_free;
-      const int *fixed = positions ? options->uv : options->st;
-      slabs[n].samples[axis] = !free ? fixed[axis % 2] : positions ? choice->uv : choice->st;
-      slabs[n].st_window[axis] = plane->slabs[n].st_window[axis];
+  for (int n = 0; n < work->lamp->slab_count; ++n) {
+    if (moved) move_plane(&slabs[n], options->for_distance);
+    for (int k = 0; k < 2; ++k) {
+      slabs[n].samples[SLAB_U + k] = options->uv_free ? choice->uv : options->uv[k];
+      slabs[n].samples[SLAB_S + k] = options->st_free ? choice->st : options->st[k];
     }
-    slabs[n].st_distance = plane->slabs[n].st_distance;
     resolution->distance = fmax(resolution->distance, distance_of(work, &slabs[n]));
   }
 }
@@ -209,21 +192,21 @@ enum result probe_resolution(const struct bake_work *work, struct slab *slabs,
                              struct probe_resolution *resolution, struct bake_report *report,
                              struct error *error) {
   const struct bake_options *options = work->options;
-  struct plane_errors planes[2] = {0};
   struct choice choices[2] = {0};
-  int several = options->for_distance > 0 ? 2 : 1, best = 0;
-  enum result result = RESULT_OK;
-  for (int n = 0; n < several && result == RESULT_OK; ++n) {
-    result = estimate_plane(work, slabs, n == 1, &planes[n], report, error);
-    if (result == RESULT_OK) choices[n] = choose(&planes[n], options);
+  int pages = work->lamp->slab_count, planes = options->for_distance > 0 ? 2 : 1, best = 0;
+  struct page_errors *errors = calloc((size_t)pages, sizeof *errors);
+  enum result result = errors ? RESULT_OK : result_no_memory(error);
+  for (int n = 0; n < planes && result == RESULT_OK; ++n) {
+    result = estimate_pages(work, slabs, n == 1, errors, report, error);
+    if (result == RESULT_OK) choices[n] = choose(errors, pages, options);
     if (result == RESULT_OK && n && is_better(&choices[n], &choices[0], options->tolerance))
       best = n;
   }
   if (result == RESULT_OK) {
-    apply(work, &choices[best], &planes[best], slabs, resolution);
+    apply(work, &choices[best], best == 1, slabs, resolution);
     resolution->error = choices[best].error;
     say(options, &choices[best], choices, best == 1, resolution);
   }
-  for (int n = 0; n < several; ++n) free_errors(&planes[n]);
+  free(errors);
   return result;
 }
