@@ -204,7 +204,6 @@ enum result probe_resolution(const struct bake_work *work, struct slab *slabs,
   }
   if (result == RESULT_OK) {
     apply(work, &choices[best], best == 1, slabs, resolution);
-    resolution->error = choices[best].error;
     say(options, &choices[best], choices, best == 1, resolution);
   }
   free(errors);

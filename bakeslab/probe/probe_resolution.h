@@ -6,7 +6,6 @@
 #include "batch/bake_run.h"
 
 struct probe_resolution {
-  double error; /* expected of the samples chosen: relative RMS of irradiance (slab_accuracy.h) */
   double distance; /* from here on, in lamp units */
   char line[320];  /* what was decided, one line */
 };
