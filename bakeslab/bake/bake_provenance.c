@@ -1,4 +1,3 @@
-/* bake_provenance.c - see bake_provenance.h. */
 #include "bake/bake_provenance.h"
 
 #include <stdio.h>

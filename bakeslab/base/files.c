@@ -1,4 +1,3 @@
-/* files.c - see files.h. */
 #include "base/files.h"
 
 #include <errno.h>

@@ -1,4 +1,3 @@
-/* picture.c - see picture.h. */
 #include "base/picture.h"
 
 #include <stdlib.h>

@@ -5,8 +5,7 @@
 struct picture {
   int width, height;
   float *rgb;   /* owned */
-  float *error; /* how far off each value may be, INFINITY where that is not known; owned, NULL
-                   for none */
+  float *error; /* bound on the error of each value, INFINITY where unknown; owned; NULL: none */
 };
 
 void picture_free(struct picture *picture); /* NULL and zeroed pictures allowed */

@@ -1,4 +1,3 @@
-/* result.c - formats the one line of result.h. */
 #include "base/result.h"
 
 #include <stdarg.h>

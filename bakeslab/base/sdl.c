@@ -1,4 +1,3 @@
-/* sdl.c - see sdl.h. */
 #include "base/sdl.h"
 
 #include <ctype.h>

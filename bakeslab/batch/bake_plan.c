@@ -1,4 +1,3 @@
-/* bake_plan.c - see bake_plan.h. */
 #include "batch/bake_plan.h"
 
 #include <limits.h>

@@ -27,8 +27,7 @@ void bake_tiles_free(struct bake_tiles *tiles);
 int bake_tile_count(const struct bake_tiles *tiles);
 /* Tiles along each axis of a page. */
 void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES]);
-/* Moves to the next place in that grid, in the order of the tiles' numbers; false after the last.
- */
+/* Moves to the next place in that grid, in the order of numbers; false after the last. */
 bool bake_tile_next(const int grid[SLAB_AXES], int at[SLAB_AXES]);
 /* The box of a tile, given its place in that grid. */
 struct bake_box bake_tile_box(const struct bake_tiles *tiles, int page, const int at[SLAB_AXES]);

@@ -1,4 +1,3 @@
-/* bake_rays.c - see bake_rays.h. */
 #include "batch/bake_rays.h"
 
 #include <math.h>

@@ -23,8 +23,8 @@ int bake_box_rays(const struct bake_box *box);
 /* Where a pass puts its rays. CENTRE: through the centres of the cells. SHARED: all samples have
  * the same offset, so that positions and directions stay on grids and every form of camera shoots
  * the same rays. OWN: each camera shifts the sequence for itself; where tiles get few passes, what
- * these miss then differs from view to view and averages out, rather than to alias with parts of
- * the lamp that repeat like the cells. */
+ * these miss then differs from view to view and averages out, instead of aliasing with
+ * parts of the lamp that repeat as the cells do. */
 enum bake_offsets { BAKE_CENTRE, BAKE_SHARED, BAKE_OWN };
 
 /* The offset of a box's rays in a pass, in cells, each in (-1/2, 1/2). */

@@ -1,4 +1,3 @@
-/* bake_run.c - see bake_run.h. */
 #include "batch/bake_run.h"
 
 #include <errno.h>

@@ -1,4 +1,3 @@
-/* bake_scene.c - see bake_scene.h. */
 #include "batch/bake_scene.h"
 
 #include <math.h>

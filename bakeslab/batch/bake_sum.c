@@ -1,4 +1,3 @@
-/* bake_sum.c - see bake_sum.h. */
 #include "batch/bake_sum.h"
 
 #include <math.h>

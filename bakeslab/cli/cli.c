@@ -1,4 +1,3 @@
-/* cli.c - see cli.h. */
 #include "cli/cli.h"
 
 #include <errno.h>

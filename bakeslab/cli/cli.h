@@ -49,8 +49,7 @@ int cli_fail(const struct error *error);
  * or a closed pipe is an error. Returns an exit status. */
 int cli_close_stdout(void);
 
-/* The end of a command: prints the error of a failure and closes stdout. Returns the exit status.
- */
+/* The end of a command: prints the error of a failure, closes stdout, returns the exit status. */
 int cli_end(enum result result, const struct error *error);
 
 /* Parses "NxM" (or "N" for NxN), both at least 1 and at most 65536. */

@@ -1,4 +1,3 @@
-/* slab_options.c - see slab_options.h. */
 #include "cmd/slab_options.h"
 
 #include <math.h>

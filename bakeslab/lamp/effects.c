@@ -1,4 +1,3 @@
-/* effects.c - see effects.h. */
 #include "lamp/effects.h"
 
 #include <stdlib.h>
@@ -6,7 +5,7 @@
 
 enum { MOST_STEPS = 6, MOST_SETTING = 100000000 };
 
-/* The variable by which canned.inc learns the setting. */
+/* `variable` passes the setting to canned.inc. */
 static const struct {
   const char *word, *variable;
   int ladder[MOST_STEPS];
@@ -26,7 +25,7 @@ const int *effect_ladder(enum effect effect) {
   return table[effect].ladder;
 }
 
-/* The setting in "=N" or, before the next word, the usual one; 0 where there is neither. */
+/* The setting in "=N" or, before the next word, the usual one; 0 for anything else. */
 static int parse_setting(const char *text, int usual) {
   char *end;
   if (!strchr(" ,=", *text)) return 0;

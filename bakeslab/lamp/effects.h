@@ -13,7 +13,7 @@ enum effect { INTERREFLECTION, CAUSTICS, EXTENDED_SOURCE, DEEP_TRACE, EFFECTS };
 struct effects {
   int setting[EFFECTS]; /* 0: off; else how far: bounces, photons, lights along the source,
                            trace level */
-  bool named;           /* somebody asked for these, rather than for all */
+  bool named;           /* by the user or the script, rather than "all" */
 };
 
 const char *effect_word(enum effect effect);

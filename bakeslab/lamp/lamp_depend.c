@@ -1,4 +1,3 @@
-/* lamp_depend.c - see lamp_depend.h. */
 #include "lamp/lamp_depend.h"
 
 #include <stdbool.h>

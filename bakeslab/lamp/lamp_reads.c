@@ -1,4 +1,3 @@
-/* lamp_reads.c - see lamp_reads.h. */
 #include "lamp/lamp_reads.h"
 
 #include <errno.h>

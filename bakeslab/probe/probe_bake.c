@@ -1,4 +1,3 @@
-/* probe_bake.c - see probe_bake.h. */
 #include "probe/probe_bake.h"
 
 #include <stdlib.h>

@@ -1,4 +1,3 @@
-/* patch.c - see patch.h. */
 #include "slab/patch.h"
 
 #include <math.h>

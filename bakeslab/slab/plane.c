@@ -1,4 +1,3 @@
-/* plane.c - see plane.h. */
 #include "slab/plane.h"
 
 #include <math.h>

@@ -1,4 +1,3 @@
-/* slab_profile.c - see slab_profile.h. */
 #include "slab/slab_profile.h"
 
 #include <math.h>
