@@ -1,4 +1,4 @@
-/* projector.c - see projector.h. The st plane is the focus plane, so that radiance depends on
+/* projector.c - the st plane is the focus plane, so that radiance depends on
  * (s, t) alone, and focal blur follows from the geometry of the slab. */
 #include "bake/projector.h"
 

@@ -1,4 +1,4 @@
-/* json_text.c - see json_text.h: an allocator that counts its failures. */
+/* json_text.c - an allocator that counts its failures. */
 #include "file/json_text.h"
 
 #include <stdlib.h>

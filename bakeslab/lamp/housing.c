@@ -1,4 +1,4 @@
-/* housing.c - see housing.h. Reads just enough of POV-Ray's language: comments, strings,
+/* housing.c - reads just enough of POV-Ray's language: comments, strings,
  * braces, directives and their #end. */
 #include "lamp/housing.h"
 

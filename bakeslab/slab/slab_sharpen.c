@@ -1,4 +1,4 @@
-/* slab_sharpen.c - see slab_sharpen.h. Works on one view at a time, in double: an array
+/* slab_sharpen.c - works on one view at a time, in double: an array
  * [t][s][rgb].
  *
  * 1. Solve A x = m along all lines of s, then of t: m are the view's samples, which are means over
