@@ -171,40 +171,38 @@ static enum result check_file(const char *path, bool errors, int *warnings, stru
   return result;
 }
 
+static const char doc[] =
+    "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
+    "standard output, when a slab misses light, loses it, or counts it twice. A warning is "
+    "not an error.\n\n"
+    "A slab misses light where the mean radiance of the last samples of s or t is more than "
+    "2 % of that axis's brightest (enlarge the st window), or of u or v more than 50 % (the "
+    "lamp's opening may be larger than the rectangle). It loses light where the flux at the "
+    "aperture differs from the flux on a closed box around it, an aperture's width (the "
+    "longer edge) away, by 1 % more than the uncertainty of the latter, a sum over some "
+    "10^6 rays. It counts light twice where more than 1 % of the flux of a page leaves "
+    "through another page's aperture too.\n\n"
+    "--error estimates the error of irradiance on a surface that faces the slab, against "
+    "the lamp itself, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
+    "in brackets): the RMS of the error over the RMS of the irradiance. The estimate needs "
+    "only the slab: it follows from what halving the resolution changes, for st and for uv, "
+    "and from the noise that the bake recorded, which sharpening and resampling drop. For "
+    "45 of 54 test lamps it was within a factor of 2 of the true error, and for all from "
+    "0.4 to 8 times; for sharpened slabs 38 of 54, and up to 12 times. It is too small for "
+    "hard edges seen from afar, and where the few rays of a sample all have the same error."
+    "\vExamples:\n"
+    "  bakeslab check lamp.tif\n"
+    "  bakeslab check --error lamp.tif\n"
+    "  bakeslab check --strict lamps/*.tif";
+
+static const struct argp_option option[] = {
+    {"strict", OPTION_STRICT, NULL, 0, "Exit with 1 after a warning too", 0},
+    {"error", OPTION_ERROR, NULL, 0, "Estimate the slab's own error: no method is more accurate",
+     0},
+    {0}};
+static const struct argp argp = {option, parse, "SLAB...", doc, cli_options, NULL, NULL};
+
 int cmd_check(int argc, char **argv) {
-  static const struct argp_option option[] = {
-      {"strict", OPTION_STRICT, NULL, 0, "Exit with 1 after a warning too", 0},
-      {"error", OPTION_ERROR, NULL, 0, "Estimate the slab's own error: no method is more accurate",
-       0},
-      {0}};
-  static const struct argp argp = {
-      .options = option,
-      .parser = parse,
-      .children = cli_options,
-      .args_doc = "SLAB...",
-      .doc =
-          "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
-          "standard output, when a slab misses light, loses it, or counts it twice. A warning is "
-          "not an error.\n\n"
-          "A slab misses light where the mean radiance of the last samples of s or t is more than "
-          "2 % of that axis's brightest (enlarge the st window), or of u or v more than 50 % (the "
-          "lamp's opening may be larger than the rectangle). It loses light where the flux at the "
-          "aperture differs from the flux on a closed box around it, an aperture's width (the "
-          "longer edge) away, by 1 % more than the uncertainty of the latter, a sum over some "
-          "10^6 rays. It counts light twice where more than 1 % of the flux of a page leaves "
-          "through another page's aperture too.\n\n"
-          "--error estimates the error of irradiance on a surface that faces the slab, against "
-          "the lamp itself, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
-          "in brackets): the RMS of the error over the RMS of the irradiance. The estimate needs "
-          "only the slab: it follows from what halving the resolution changes, for st and for uv, "
-          "and from the noise that the bake recorded, which sharpening and resampling drop. For "
-          "45 of 54 test lamps it was within a factor of 2 of the true error, and for all from "
-          "0.4 to 8 times; for sharpened slabs 38 of 54, and up to 12 times. It is too small for "
-          "hard edges seen from afar, and where the few rays of a sample all have the same error."
-          "\vExamples:\n"
-          "  bakeslab check lamp.tif\n"
-          "  bakeslab check --error lamp.tif\n"
-          "  bakeslab check --strict lamps/*.tif"};
   struct options options = {0};
   cli_parse(&argp, argc, argv, &options);
   int status = CLI_OK, warnings = 0;

@@ -69,22 +69,21 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
   }
 }
 
-static void replace(struct slab *slab, struct slab *with) {
+static void replace(struct slab *slab, const struct slab *with) {
   slab_free(slab);
   *slab = *with;
 }
 
-/* Sharpening is of cell means, and once. Resampling a sharpened slab would be neither of
- * cell means nor sharpened. */
+/* Cell means alone can be sharpened, and once. Resampled, a sharpened slab would be neither cell
+ * means nor sharpened. */
 static enum result check_sharpening(const struct options *options, const struct slab *slab,
                                     bool resample_st, struct error *error) {
   struct slab_sampling sampling = {0};
   enum result result = slab_json_sampling(slab, &sampling, error);
   if (result != RESULT_OK) return result;
-  bool sharpened = sampling.sharpened;
-  if (sharpened && options->sharpen)
+  if (sampling.sharpened && options->sharpen)
     return result_fail(error, RESULT_BAD, "is sharpened already, as its provenance says");
-  if (sharpened && resample_st)
+  if (sampling.sharpened && resample_st)
     return result_fail(error, RESULT_BAD,
                        "is sharpened: give --st to the convert that sharpens the slab it is from");
   if (sampling.points && options->sharpen)
@@ -107,21 +106,18 @@ static enum result sharpen_page(const struct options *options, struct slab *slab
 
 static enum result convert_page(const struct options *options, struct slab *slab,
                                 struct error *error) {
-  enum result result = RESULT_OK;
   int first[SLAB_AXES], end[SLAB_AXES], samples[SLAB_AXES];
-  bool crop = false, resample = false;
+  bool crop = false, resample = false, resample_st = false;
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     first[axis] = options->end[axis] ? options->first[axis] : 0;
     end[axis] = options->end[axis] ? options->end[axis] : slab->samples[axis];
     crop |= first[axis] != 0 || end[axis] != slab->samples[axis];
     samples[axis] = options->samples[axis] ? options->samples[axis] : end[axis] - first[axis];
     resample |= samples[axis] != end[axis] - first[axis];
+    resample_st |= axis >= SLAB_S && samples[axis] != end[axis] - first[axis];
   }
+  enum result result = check_sharpening(options, slab, resample_st, error);
   struct slab other = {0};
-  result = check_sharpening(options, slab,
-                            samples[SLAB_S] != end[SLAB_S] - first[SLAB_S] ||
-                                samples[SLAB_T] != end[SLAB_T] - first[SLAB_T],
-                            error);
   if (crop && result == RESULT_OK) {
     result = slab_crop(slab, first, end, &other, error);
     if (result == RESULT_OK) replace(slab, &other);
@@ -142,10 +138,8 @@ static enum result run(const struct options *options, struct error *error) {
   int count = 0;
   enum result result = slab_file_load_all(options->input, &slabs, &count, error);
   for (int page = 0; page < count && result == RESULT_OK; ++page) {
-    struct error why;
-    result = convert_page(options, &slabs[page], &why);
-    if (result != RESULT_OK)
-      result_fail(error, result, "%s: page %d: %s", options->input, page + 1, why.text);
+    result = convert_page(options, &slabs[page], error);
+    result_at(result, error, "%s: page %d", options->input, page + 1);
   }
   if (result == RESULT_OK)
     result = slab_file_write(options->output, slabs, count, options->precision, error);

@@ -182,20 +182,19 @@ static enum result run(const struct options *options, struct error *error) {
   return result;
 }
 
+static const char doc[] =
+    "Prints what a light slab is: geometry, samples, flux and peak of each page, and how "
+    "it was made: the effects, the estimated noise and the rest of its provenance. Flux "
+    "is the integral of the interpolated radiance times the cosine, with lengths in "
+    "metres: in W or lm where the radiance has a unit."
+    "\vExamples:\n"
+    "  bakeslab info lamp.tif\n"
+    "  bakeslab info --json lamp.tif | jq '.pages[0].flux'";
+
+static const struct argp_option option[] = {{"json", 'j', NULL, 0, "Print JSON", 0}, {0}};
+static const struct argp argp = {option, parse, "SLAB", doc, cli_options, NULL, NULL};
+
 int cmd_info(int argc, char **argv) {
-  static const struct argp_option option[] = {{"json", 'j', NULL, 0, "Print JSON", 0}, {0}};
-  static const struct argp argp = {
-      .options = option,
-      .parser = parse,
-      .children = cli_options,
-      .args_doc = "SLAB",
-      .doc = "Prints what a light slab is: geometry, samples, flux and peak of each page, and how "
-             "it was made: the effects, the estimated noise and the rest of its provenance. Flux "
-             "is the integral of the interpolated radiance times the cosine, with lengths in "
-             "metres: in W or lm where the radiance has a unit."
-             "\vExamples:\n"
-             "  bakeslab info lamp.tif\n"
-             "  bakeslab info --json lamp.tif | jq '.pages[0].flux'"};
   struct options options = {0};
   struct error error = {{0}};
   cli_parse(&argp, argc, argv, &options);

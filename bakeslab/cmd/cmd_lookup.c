@@ -1,5 +1,4 @@
-/* cmd_lookup.c - bakeslab lookup: radiance of rays. Views are read when the
- * first ray needs them. */
+/* cmd_lookup.c - bakeslab lookup: radiance of rays. A view is read when the first ray needs it. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -46,8 +45,7 @@ static enum result open_page(struct slab_file *file, int page, struct lazy_page 
   const int *n = lazy->slab.samples;
   lazy->loaded = calloc((size_t)n[SLAB_U] * (size_t)n[SLAB_V], sizeof *lazy->loaded);
   lazy->view = calloc((size_t)n[SLAB_S] * (size_t)n[SLAB_T], 3 * sizeof *lazy->view);
-  if (!lazy->loaded || !lazy->view) return result_fail(error, RESULT_MEMORY, "out of memory");
-  return RESULT_OK;
+  return lazy->loaded && lazy->view ? RESULT_OK : result_no_memory(error);
 }
 
 static void close_page(struct lazy_page *lazy) {
@@ -70,8 +68,8 @@ static enum result need_view(struct slab_file *file, int page, struct lazy_page 
   return RESULT_OK;
 }
 
-/* The samples on both sides of a position along u or v; equal at the border.
- * One more on each side is harmless, so rounding does not matter. */
+/* The samples on both sides of a position along u or v, and one more on each side, so that
+ * rounding does not matter. */
 static void neighbours(const struct slab *slab, int axis, double position, int index[2]) {
   int last = slab->samples[axis] - 1;
   double cell = floor((position - slab_position(slab, axis, 0)) / slab_spacing(slab, axis));
@@ -145,25 +143,17 @@ static enum result look_up(struct slab_file *file, struct lazy_page *pages, int 
 static enum result run(const struct options *options, struct error *error) {
   struct slab_file *file = NULL;
   struct lazy_page *pages = NULL;
-  int count = 0;
   enum result result = slab_file_open(options->path, &file, error);
-  if (result != RESULT_OK) return result;
-  count = slab_file_pages(file);
-  if (options->page > count) {
+  int count = result == RESULT_OK ? slab_file_pages(file) : 0;
+  if (result == RESULT_OK && options->page > count)
     result = result_fail(error, RESULT_BAD, "%s: has no page %d, only %d", options->path,
                          options->page, count);
-    goto out;
-  }
-  pages = calloc((size_t)count, sizeof *pages);
-  if (!pages) {
-    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", options->path);
-    goto out;
-  }
+  if (result == RESULT_OK && !(pages = calloc((size_t)count, sizeof *pages)))
+    result = result_at(result_no_memory(error), error, "%s", options->path);
   int first = options->page ? options->page - 1 : 0, end = options->page ? options->page : count;
   for (int page = first; page < end && result == RESULT_OK; ++page)
     result = open_page(file, page, &pages[page], error);
   if (result == RESULT_OK) result = look_up(file, pages, first, end, error);
-out:
   for (int page = 0; pages && page < count; ++page) close_page(&pages[page]);
   free(pages);
   slab_file_close(file);
