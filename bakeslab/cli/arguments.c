@@ -105,13 +105,13 @@ static enum result read_text(const char *path, const char *named_in, char **text
   FILE *file = fopen(path, "re");
   ssize_t length = file ? getdelim(text, &room, 0, file) : -1; /* up to a zero byte */
   int why = errno;
-  bool empty = length < 0 && file && feof(file) && *text, broken = file && ferror(file);
+  bool whole = file && *text && (length >= 0 || feof(file)) && !ferror(file);
   if (file) fclose(file);
-  if (empty) **text = 0;
-  if ((length < 0 && !empty) || broken)
+  if (!whole)
     return why == ENOMEM
                ? result_no_memory(error)
                : result_fail(error, RESULT_IO, "%s@%s: %s", named_in, path, strerror(why));
+  if (length < 0) **text = 0; /* an empty file */
   int line = 1;
   char *to = *text;
   for (const char *from = *text; *from; ++from) {

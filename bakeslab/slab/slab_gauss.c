@@ -15,8 +15,7 @@ static void eigen(int n, double *diagonal, double *off, double *first) {
   for (int l = 0; l < n; ++l)
     for (int sweep = 0; sweep < 60; ++sweep) {
       int m = l;
-      while (m < n - 1 && fabs(off[m]) > 1e-17 * (fabs(diagonal[m]) + fabs(diagonal[m + 1])))
-        ++m;
+      while (m < n - 1 && fabs(off[m]) > 1e-17 * (fabs(diagonal[m]) + fabs(diagonal[m + 1]))) ++m;
       if (m == l) break;
       double g = (diagonal[l + 1] - diagonal[l]) / (2 * off[l]);
       g = diagonal[m] - diagonal[l] + off[l] / (g + copysign(hypot(g, 1), g));
