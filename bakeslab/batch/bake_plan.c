@@ -114,16 +114,13 @@ void bake_round_free(struct bake_round *round) {
   *round = (struct bake_round){0};
 }
 
-/* Makes room for one more element in an array that grows by doubling. */
-static void *grow(void *array, size_t count, size_t size) {
-  if (count & (count - 1)) return array; /* not a power of two: there is room */
-  return realloc(array, (count ? 2 * count : 1) * size);
-}
-
 static bool add_box(struct bake_round *round, struct bake_box box) {
-  struct bake_box *grown = grow(round->boxes, round->box_count, sizeof box);
-  if (!grown) return false;
-  round->boxes = grown;
+  size_t count = round->box_count;
+  if (!(count & (count - 1))) { /* 0 or a power of two: full */
+    struct bake_box *grown = realloc(round->boxes, (count ? 2 * count : 1) * sizeof *grown);
+    if (!grown) return false;
+    round->boxes = grown;
+  }
   round->boxes[round->box_count++] = box;
   return true;
 }
@@ -139,14 +136,6 @@ static bool add_parts(struct bake_round *round, struct bake_box box, int most) {
     return add_parts(round, box, most) && add_parts(round, rest, most);
   }
   return add_box(round, box);
-}
-
-static bool add_unit(struct bake_round *round, int box, int pass) {
-  struct bake_unit *grown = grow(round->units, round->unit_count, sizeof *grown);
-  if (!grown) return false;
-  round->units = grown;
-  round->units[round->unit_count++] = (struct bake_unit){box, pass};
-  return true;
 }
 
 /* A stride that visits each of `count` things once, consecutive ones far apart: near the golden
@@ -168,10 +157,14 @@ static size_t spreading_stride(size_t count) {
  * puts neighbouring boxes into different batches, so that no seam runs through the slab. */
 static bool add_passes(struct bake_round *round, size_t box, int from, int to, bool spread) {
   size_t count = round->box_count - box, stride = spread && count ? spreading_stride(count) : 1;
+  size_t room = round->unit_count + count * (size_t)(to - from) + 1;
+  struct bake_unit *units = realloc(round->units, room * sizeof *units);
+  if (!units) return false;
+  round->units = units;
   for (int pair = from; pair < to; pair += 2)
     for (size_t n = 0, at = 0; n < count; ++n, at = (at + stride) % count)
       for (int pass = pair; pass < pair + 2 && pass < to; ++pass)
-        if (!add_unit(round, (int)(box + at), pass)) return false;
+        units[round->unit_count++] = (struct bake_unit){(int)(box + at), pass};
   return true;
 }
 
@@ -196,7 +189,6 @@ static size_t full_cost(const struct bake_round *round) {
 /* Whether a unit may join the batch. Frames of an animation are all of one shape. */
 static bool fits(const struct bake_round *round, const struct bake_batch *batch, size_t unit,
                  enum bake_form form, size_t full) {
-  if (!batch->count) return true;
   const struct bake_box *box = &round->boxes[round->units[unit].box];
   const struct bake_box *first = &round->boxes[round->units[batch->first].box];
   bool second_of_pair =
@@ -208,12 +200,11 @@ static bool fits(const struct bake_round *round, const struct bake_batch *batch,
 
 static enum result cut_batches(struct bake_round *round, enum bake_form form, struct error *error) {
   size_t full = full_cost(round);
+  round->batches = malloc((round->unit_count + 1) * sizeof *round->batches); /* at most */
+  if (!round->batches) return result_no_memory(error);
+  struct bake_batch *last = round->batches;
   for (size_t unit = 0; unit < round->unit_count; ++unit) {
-    struct bake_batch *last = round->batch_count ? &round->batches[round->batch_count - 1] : NULL;
-    if (!last || !fits(round, last, unit, form, full)) {
-      struct bake_batch *grown = grow(round->batches, round->batch_count, sizeof *grown);
-      if (!grown) return result_no_memory(error);
-      round->batches = grown;
+    if (unit == 0 || !fits(round, last, unit, form, full)) {
       last = &round->batches[round->batch_count++];
       *last = (struct bake_batch){.first = unit};
     }
