@@ -49,7 +49,7 @@ ALL_CFLAGS = -std=c17 -D_GNU_SOURCE $(WARN) -ffp-contract=off $(CFLAGS_$(config)
 # headers here: their warnings are not ours.
 ALL_CXXFLAGS = -std=c++17 -D_GNU_SOURCE $(WARN_BOTH) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab -Irender $(CFLAGS)
 ALL_LDFLAGS = -Wl,--as-needed $(CFLAGS_$(config)) $(CFLAGS) $(LDFLAGS)
-ALL_LDLIBS = $(PKG_LIBS) -lpthread -lm $(LDLIBS)
+ALL_LDLIBS = $(PKG_LIBS) -lstdc++ -lpthread -lm $(LDLIBS)
 
 Q := $(if $(V),,@)
 say = $(if $(V),@:,@printf '%-5s %s\n' $(1) $(2))

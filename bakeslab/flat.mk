@@ -3,7 +3,7 @@
 SLAB_SOURCES := $(wildcard $(addprefix bakeslab/,base/*.c cli/*.c slab/*.c file/*.c))
 BAKE_SOURCES := $(filter-out $(SLAB_SOURCES) bakeslab/preload/%,$(wildcard bakeslab/*/*.c bakeslab/*/*/*.c))
 SLAB_OBJECTS := $(SLAB_SOURCES:%.c=$(B)/%.o)
-BAKE_OBJECTS := $(BAKE_SOURCES:%.c=$(B)/%.o)
+BAKE_OBJECTS := $(BAKE_SOURCES:%.c=$(B)/%.o) $(patsubst %.cc,$(B)/%.o,$(wildcard bakeslab/*/*/*.cc))
 
 $(B)/libslab.a: $(SLAB_OBJECTS)
 $(B)/libbake.a: $(BAKE_OBJECTS)

@@ -26,6 +26,7 @@ mapfile -t files < <(git ls-files --cached --others --exclude-standard | while r
 only() { printf '%s\n' "${files[@]}" | grep -E "$1"; }
 mapfile -t sources < <(only '\.c$')
 mapfile -t headers < <(only '\.h$')
+mapfile -t shims < <(only '\.cc$')
 mapfile -t bats < <(only '\.(bats|bash)$')
 mapfile -t shells < <(for f in "${files[@]}"; do
   case $f in *.bats | *.bash | *.c | *.h) continue ;; esac
@@ -34,7 +35,7 @@ done)
 
 formatted() {
   local file bad=0
-  for file in "${sources[@]}" "${headers[@]}"; do
+  for file in "${sources[@]}" "${headers[@]}" "${shims[@]}"; do
     clang-format --dry-run -Werror "$file" 2>/dev/null || { echo "$file"; bad=1; }
   done
   return "$bad"

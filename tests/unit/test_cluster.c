@@ -45,13 +45,14 @@ static struct cluster fit(const struct slab *slab, int lights) {
 
 /* ---- Parallelograms ---- */
 
+/* Positive: edge[1] is counterclockwise of edge[0]. */
 static double area_of(const struct parallelogram *p) {
-  return fabs(p->edge[0][0] * p->edge[1][1] - p->edge[0][1] * p->edge[1][0]);
+  return p->edge[0][0] * p->edge[1][1] - p->edge[0][1] * p->edge[1][0];
 }
 
 /* Whether all points lie in it, by their coordinates along its edges. */
 static void assert_holds(const struct parallelogram *p, double (*points)[2], int count) {
-  double d = p->edge[0][0] * p->edge[1][1] - p->edge[0][1] * p->edge[1][0];
+  double d = area_of(p);
   for (int k = 0; k < count; ++k) {
     double x = points[k][0] - p->center[0], y = points[k][1] - p->center[1];
     assert_near((x * p->edge[1][1] - y * p->edge[1][0]) / d, 0, 0.5 + 1e-9);
@@ -90,6 +91,25 @@ static void test_parallelogram(void **state) {
   }
 }
 
+/* An oblong is found to the bit. Around the hexagon, three parallelograms are equally small: one
+ * with sides along x wins. */
+static void test_exact_parallelograms(void **state) {
+  (void)state;
+  double oblong[6][2] = {{0.3, 0.7}, {0.1, 0.7}, {0.2, 0.2}, {0.1, 0.2}, {0.3, 0.2}, {0.2, 0.7}};
+  double hexagon[6][2] = {{0, 0}, {1, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 1}};
+  struct parallelogram found;
+  assert_int_equal(parallelogram_around(oblong, 6, &found, NULL), RESULT_OK);
+  assert_near(found.center[0], (0.1 + 0.3) / 2, 0);
+  assert_near(found.center[1], (0.2 + 0.7) / 2, 0);
+  assert_near(found.edge[0][0], 0.3 - 0.1, 0);
+  assert_near(found.edge[0][1], 0, 0);
+  assert_near(found.edge[1][0], 0, 0);
+  assert_near(found.edge[1][1], 0.7 - 0.2, 0);
+  assert_int_equal(parallelogram_around(hexagon, 6, &found, NULL), RESULT_OK);
+  assert_near(area_of(&found), 4, 0);
+  assert_near(found.edge[0][1], 0, 0);
+}
+
 static void test_flat_parallelograms(void **state) {
   (void)state;
   double one[3][2] = {{1, 2}, {1, 2}, {1, 2}}, line[4][2] = {{0, 0}, {2, 1}, {4, 2}, {2, 1}};
@@ -97,9 +117,12 @@ static void test_flat_parallelograms(void **state) {
   assert_int_equal(parallelogram_around(one, 3, &found, NULL), RESULT_OK);
   assert_near(found.center[1], 2, 0);
   assert_near(hypot(found.edge[0][0], found.edge[0][1]), 0, 0);
+  assert_near(hypot(found.edge[1][0], found.edge[1][1]), 0, 0);
   assert_int_equal(parallelogram_around(line, 4, &found, NULL), RESULT_OK);
   assert_near(found.center[0], 2, 1e-15);
-  assert_near(hypot(found.edge[0][0], found.edge[0][1]), sqrt(20), 1e-12);
+  assert_near(found.edge[0][0], 4, 0);
+  assert_near(found.edge[0][1], 2, 0);
+  assert_near(hypot(found.edge[1][0], found.edge[1][1]), 0, 0);
 }
 
 /* ---- Least squares ---- */
@@ -349,11 +372,17 @@ static void test_point_flux(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_parallelogram), cmocka_unit_test(test_flat_parallelograms),
-      cmocka_unit_test(test_nonnegative),   cmocka_unit_test(test_flux_of_lobes),
-      cmocka_unit_test(test_slopes),        cmocka_unit_test(test_flux),
-      cmocka_unit_test(test_determinism),   cmocka_unit_test(test_known_mixture),
-      cmocka_unit_test(test_one_sample),    cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_parallelogram),
+      cmocka_unit_test(test_exact_parallelograms),
+      cmocka_unit_test(test_flat_parallelograms),
+      cmocka_unit_test(test_nonnegative),
+      cmocka_unit_test(test_flux_of_lobes),
+      cmocka_unit_test(test_slopes),
+      cmocka_unit_test(test_flux),
+      cmocka_unit_test(test_determinism),
+      cmocka_unit_test(test_known_mixture),
+      cmocka_unit_test(test_one_sample),
+      cmocka_unit_test(test_refusals),
       cmocka_unit_test(test_point_flux),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

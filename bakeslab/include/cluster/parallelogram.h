@@ -1,11 +1,6 @@
-/* parallelogram.h - the smallest parallelogram around points of a plane.
- *
- * Some smallest parallelogram has an edge of the points' convex hull on one of
- * each pair of its parallel sides (Schwarz, Teich, Vainshtein, Welzl and Evans,
- * "Minimal enclosing parallelogram with application", 1995), so that trying all
- * pairs of the hull's edges finds it. On the few corners of a cluster's cells
- * that is as fast as their linear algorithm (CGAL's min_parallelogram_2), and
- * needs no library. */
+/* parallelogram.h - the smallest parallelogram around points of a plane, by CGAL (Schwarz, Teich,
+ * Vainshtein, Welzl and Evans, "Minimal enclosing parallelogram with application", 1995), in
+ * exact arithmetic. */
 #ifndef PARALLELOGRAM_H
 #define PARALLELOGRAM_H
 
@@ -13,13 +8,14 @@
 
 struct parallelogram {
   double center[2];
-  double edge[2][2]; /* full edges */
+  double edge[2][2]; /* full edges from its leftmost corner (of two, the lower one), edge[1]
+                        counterclockwise of edge[0] */
 };
 
-/* Sorts the points. Points on a line
- * get a parallelogram with one edge of length zero, a single point two.
- * Takes time quadratic in the corners of the hull. */
-enum result parallelogram_around(double (*points)[2], int count, struct parallelogram *found,
+/* Of one or more finite points. Points on a line get a parallelogram whose edge[1] is zero, a
+ * single point one whose edges both are. Of parallelograms equally small it is the first by the
+ * direction of their sides, counterclockwise from x. Corners are exact, then rounded. */
+enum result parallelogram_around(const double (*points)[2], int count, struct parallelogram *found,
                                  struct error *error);
 
 #endif
