@@ -62,15 +62,15 @@ static enum result write_probe(const char *directory, const struct effects *effe
 }
 
 /* Runs POV-Ray with the list-maker, which wants the list's path in the environment. */
-static enum result run_listing(const struct povray *povray, const struct povray_job *job,
+static enum result run_listing(const struct povray *povray, struct povray_job *job,
                                struct error *error) {
   char *folder = realpath(job->directory, NULL);
   char *list = folder ? files_join(folder, "reads.txt") : NULL;
-  enum result result = RESULT_OK;
-  if (!list || setenv("CANNED_READS", list, 1) != 0)
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
-  if (result == RESULT_OK) result = povray_run(povray, job, error);
-  unsetenv("CANNED_READS");
+  const char *const environment[] = {"LD_PRELOAD", "./" LAMP_READS, "CANNED_READS", list, NULL};
+  job->environment = environment;
+  enum result result =
+      list ? povray_run(povray, job, error) : result_fail(error, RESULT_MEMORY, "out of memory");
+  job->environment = NULL;
   free(list);
   free(folder);
   return result;
@@ -87,7 +87,6 @@ enum result lamp_try(const struct povray *povray, const struct lamp_source *sour
                            .height = 2 + PROBE_SIDE * PROBE_VIEWS,
                            .frames = 1,
                            .library = library.paths,
-                           .preload = "./" LAMP_READS,
                            .stop = stop};
   struct picture picture = {0};
   enum result result = lamp_source_link(source, directory, error);

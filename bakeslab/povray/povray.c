@@ -7,32 +7,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "base/files.h"
+#include "base/process.h"
 #include "file/slab_exr.h"
 #include "povray/sandbox.h"
 
-enum { EXEC_FAILED = 127 };
-
-/* First output line that names a version; POV-Ray prints it on stderr. */
-static bool read_version(FILE *pipe, char *version, size_t size) {
-  char line[512];
-  bool found = false;
-  while (fgets(line, sizeof line, pipe)) {
-    const char *at = strstr(line, "POV-Ray 3.");
-    if (!at || found) continue;
-    at += strlen("POV-Ray ");
-    snprintf(version, size, "%.*s", (int)strcspn(at, " \n"), at);
-    found = true;
-  }
-  return found;
-}
-
 enum result povray_find(const char *program, struct povray *povray, struct error *error) {
+  static const char product[] = "POV-Ray ";
   *povray = (struct povray){0};
   if (strlen(program) >= sizeof povray->program)
     return result_fail(error, RESULT_BAD, "%s: path too long", program);
@@ -41,36 +26,23 @@ enum result povray_find(const char *program, struct povray *povray, struct error
   char *path = strchr(program, '/') ? realpath(program, NULL) : NULL;
   if (path && strlen(path) < sizeof povray->program) strcpy(povray->program, path);
   free(path);
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    return result_fail(error, RESULT_IO, "pipe: %s", strerror(errno));
-  pid_t pid = fork();
-  if (pid == 0) {
-    dup2(ends[1], STDOUT_FILENO);
-    dup2(ends[1], STDERR_FILENO);
-    signal(SIGPIPE, SIG_DFL);
-    execlp(program, program, "--version", (char *)NULL);
-    _exit(EXEC_FAILED);
-  }
-  close(ends[1]);
-  FILE *pipe = fdopen(ends[0], "r");
-  bool found = pipe && read_version(pipe, povray->version, sizeof povray->version);
-  if (pipe)
-    fclose(pipe);
-  else
-    close(ends[0]);
-  int status = 0;
-  while (pid > 0 && waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
-  if (pid < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == EXEC_FAILED))
-    return result_fail(
-        error, RESULT_IO,
-        "%s: cannot be run; install POV-Ray 3.7 (Debian: apt install povray) or name "
-        "it with --povray",
-        program);
-  if (!found)
+  const char *const words[] = {program, "--version", NULL};
+  struct process process = {
+      .words = words, .in = PROCESS_NOTHING, .out = PROCESS_SAID, .errors = PROCESS_SAID};
+  struct error why;
+  if (process_start(&process, &why) != RESULT_OK)
+    return result_fail(error, RESULT_IO,
+                       "%s; install POV-Ray 3.7 (Debian: apt install povray) or name it with "
+                       "--povray",
+                       why.text);
+  process_wait(&process, NULL); /* its words count, not its exit status */
+  const char *at = strstr(process.said, "POV-Ray 3.");
+  if (!at)
     return result_fail(error, RESULT_BAD,
                        "%s: does not say that it is POV-Ray 3.7; name another with --povray",
                        program);
+  at += sizeof product - 1;
+  snprintf(povray->version, sizeof povray->version, "%.*s", (int)strcspn(at, " \n"), at);
   if (strncmp(povray->version, "3.7", 3) != 0 && strncmp(povray->version, "3.8", 3) != 0)
     return result_fail(
         error, RESULT_BAD,
@@ -107,37 +79,41 @@ static enum result write_ini(const struct povray_job *job, struct error *error) 
   return result;
 }
 
-/* In the child: never returns. */
-static void become_povray(const struct povray *povray, const struct povray_job *job, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(EXEC_FAILED);
-  setpgid(0, 0); /* Ctrl-C reaches the parent, which then stops its children */
-  if (chdir(job->directory) != 0) _exit(EXEC_FAILED);
-  int log = open("log", O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  int none = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (log < 0 || none < 0) _exit(EXEC_FAILED);
-  dup2(none, STDIN_FILENO);
-  dup2(log, STDOUT_FILENO);
-  dup2(log, STDERR_FILENO);
-  signal(SIGPIPE, SIG_DFL);
+/* `folder` is the job's directory as an absolute path. */
+static enum result start_there(const struct povray *povray, const struct povray_job *job,
+                               const char *folder, pid_t *pid, struct error *error) {
+  const char *const program[] = {povray->program, "render.ini", NULL};
+  const char *words[SANDBOX_WORDS];
+  struct process process = {
+      .words = program, .environment = job->environment, .folder = folder, .in = PROCESS_NOTHING};
   if (povray->sandbox) {
-    sandbox_exec(povray->program, "render.ini", job->preload);
-    _exit(EXEC_FAILED);
+    sandbox_command(program, folder, job->environment, words);
+    process.words = words;
+    process.environment = NULL; /* not for bwrap itself */
   }
-  if (job->preload) setenv("LD_PRELOAD", job->preload, 1);
-  execlp(povray->program, povray->program, "render.ini", (char *)NULL);
-  _exit(EXEC_FAILED);
+  char *path = files_join(folder, "log");
+  int log = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
+  enum result result = RESULT_OK;
+  if (log < 0) result = result_fail(error, RESULT_IO, "%s/log: %s", folder, strerror(errno));
+  process.out = process.errors = log;
+  if (result == RESULT_OK) result = process_start(&process, error);
+  if (log >= 0) close(log);
+  free(path);
+  *pid = process.pid;
+  return result;
 }
 
 enum result povray_start(const struct povray *povray, const struct povray_job *job, pid_t *pid,
                          struct error *error) {
   enum result result = write_ini(job, error);
   if (result != RESULT_OK) return result;
-  pid_t parent = getpid();
-  *pid = fork();
-  if (*pid < 0) return result_fail(error, RESULT_IO, "fork: %s", strerror(errno));
-  if (*pid == 0) become_povray(povray, job, parent);
-  return RESULT_OK;
+  char *folder = realpath(job->directory, NULL);
+  if (folder)
+    result = start_there(povray, job, folder, pid, error);
+  else
+    result = result_fail(error, RESULT_IO, "%s: %s", job->directory, strerror(errno));
+  free(folder);
+  return result;
 }
 
 /* POV-Ray wraps its messages at 80 columns and continues them on lines that
@@ -176,18 +152,13 @@ static enum result report_log(const struct povray_job *job, struct error *error)
 }
 
 enum result povray_finish(const struct povray_job *job, int status, struct error *error) {
-  int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (WIFEXITED(status) && WEXITSTATUS(status) > 128) number = WEXITSTATUS(status) - 128;
-  if (number)
-    return result_fail(error, RESULT_IO,
-                       "POV-Ray was killed by signal %d (%s); was memory or disk short?", number,
-                       strsignal(number));
-  if (WIFEXITED(status) && WEXITSTATUS(status) == EXEC_FAILED)
-    return result_fail(error, RESULT_IO, "%s: POV-Ray could not be started there", job->directory);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 2)
+  struct error why;
+  if (process_judge("POV-Ray", status, "", &why) == RESULT_OK) return RESULT_OK;
+  if (process_signal(status))
+    return result_fail(error, RESULT_IO, "%s; was memory or disk short?", why.text);
+  if (WEXITSTATUS(status) == 2)
     return result_fail(error, RESULT_STOPPED, "POV-Ray was interrupted");
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return report_log(job, error);
-  return RESULT_OK;
+  return report_log(job, error);
 }
 
 enum result povray_run(const struct povray *povray, const struct povray_job *job,

@@ -30,7 +30,7 @@ struct povray_job {
   int width, height;
   int frames;                        /* 1: a still */
   const char *const *library;        /* Library_Path entries, NULL-terminated */
-  const char *preload;               /* LD_PRELOAD for the child, or NULL */
+  const char *const *environment;    /* as in struct process (base/process.h), or NULL */
   const volatile sig_atomic_t *stop; /* set by a signal handler: povray_run ends; or NULL */
 };
 

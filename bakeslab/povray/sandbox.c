@@ -1,15 +1,9 @@
 /* sandbox.c - see sandbox.h; bwrap(1). */
 #include "povray/sandbox.h"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
-#include <stdint.h>
-#include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <stddef.h>
 
-enum { NOT_THERE = 127, MOST_WORDS = 40 };
+#include "base/process.h"
 
 /* /run may have removable disks too, perhaps with the lamp. */
 static const char *const walls[] = {"bwrap",
@@ -27,60 +21,39 @@ static const char *const walls[] = {"bwrap",
                                     "/run",
                                     "--ro-bind-try",
                                     "/run/media",
-                                    "/run/media"};
+                                    "/run/media",
+                                    NULL};
 
-void sandbox_exec(const char *program, const char *argument, const char *preload) {
-  char folder[PATH_MAX];
-  const char *words[MOST_WORDS] = {NULL};
-  size_t count = sizeof walls / sizeof *walls;
-  if (!getcwd(folder, sizeof folder)) return;
-  memcpy(words, walls, sizeof walls);
-  const char *const rest[] = {"--bind", folder, folder, "--chdir", folder};
-  for (size_t k = 0; k < sizeof rest / sizeof *rest; ++k) words[count++] = rest[k];
-  if (preload) {
-    words[count++] = "--setenv";
-    words[count++] = "LD_PRELOAD";
-    words[count++] = preload;
-  }
-  words[count++] = "--";
-  words[count++] = program;
-  words[count++] = argument;
-  execvp(words[0], (char *const *)(uintptr_t)words); /* which does not change them */
+static size_t add(const char *const *list, const char **words, size_t count) {
+  for (; *list; ++list) words[count++] = *list;
+  return count;
 }
 
-/* What a try in a folder says, cut to one line. */
-static void read_words(int from, char *text, size_t size) {
-  size_t length = 0;
-  ssize_t n;
-  while (length + 1 < size && (n = read(from, text + length, size - 1 - length)) > 0)
-    length += (size_t)n;
-  text[length] = 0;
-  text[strcspn(text, "\n")] = 0;
+void sandbox_command(const char *const *program, const char *folder, const char *const *environment,
+                     const char *words[SANDBOX_WORDS]) {
+  const char *const place[] = {"--bind", folder, folder, "--chdir", folder, NULL};
+  size_t count = add(place, words, add(walls, words, 0));
+  for (; environment && *environment; environment += 2) {
+    const char *const variable[] = {"--setenv", environment[0], environment[1], NULL};
+    count = add(variable, words, count);
+  }
+  words[count++] = "--";
+  words[add(program, words, count)] = NULL;
 }
 
 enum result sandbox_check(struct error *error) {
-  int ends[2], status = 0;
-  char said[512];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    return result_fail(error, RESULT_IO, "pipe: %s", strerror(errno));
-  pid_t pid = fork();
-  if (pid == 0) {
-    dup2(ends[1], STDOUT_FILENO);
-    dup2(ends[1], STDERR_FILENO);
-    if (chdir("/tmp") == 0) sandbox_exec("true", NULL, NULL);
-    _exit(NOT_THERE);
-  }
-  close(ends[1]);
-  read_words(ends[0], said, sizeof said);
-  close(ends[0]);
-  while (pid > 0 && waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
-  if (pid < 0) return result_fail(error, RESULT_IO, "fork: %s", strerror(errno));
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return RESULT_OK;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_THERE)
+  static const char *const program[] = {"true", NULL};
+  const char *words[SANDBOX_WORDS];
+  struct process process = {
+      .words = words, .in = PROCESS_NOTHING, .out = PROCESS_SAID, .errors = PROCESS_SAID};
+  struct error why;
+  sandbox_command(program, "/tmp", NULL, words);
+  if (process_start(&process, &why) != RESULT_OK)
     return result_fail(error, RESULT_IO,
-                       "--sandbox: bwrap cannot be run; install bubblewrap (Debian: apt install "
-                       "bubblewrap)");
+                       "--sandbox: %s; install bubblewrap (Debian: apt install bubblewrap)",
+                       why.text);
+  if (process_wait(&process, &why) == RESULT_OK) return RESULT_OK;
   return result_fail(error, RESULT_IO,
                      "--sandbox: bubblewrap cannot make one here, as in some containers (%s)",
-                     said);
+                     why.text);
 }

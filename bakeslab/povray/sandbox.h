@@ -10,9 +10,12 @@
 /* Whether sandboxes can be made here; if not, why, in one line. */
 enum result sandbox_check(struct error *error);
 
-/* Replaces this process by a program in a sandbox whose working folder is this one's, with
- * LD_PRELOAD set to `preload` unless that is NULL. It ends with its parent; a signal that ended
- * it is the exit status 128 + signal. Returns only where that fails. */
-void sandbox_exec(const char *program, const char *argument, const char *preload);
+enum { SANDBOX_WORDS = 40 };
+
+/* The command, for struct process, of a program in a sandbox: it runs in `folder`, an absolute
+ * path, with variables as in struct process. It ends with its parent; a signal that ended it is
+ * the exit status 128 + signal. */
+void sandbox_command(const char *const *program, const char *folder, const char *const *environment,
+                     const char *words[SANDBOX_WORDS]);
 
 #endif

@@ -3,18 +3,14 @@
 #include "tradeoff/plot.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <spawn.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/output.h"
-
-enum { NOT_THERE = 127 };
+#include "base/process.h"
 
 static bool ends_in(const char *path, const char *suffix) {
   size_t length = strlen(path), tail = strlen(suffix);
@@ -29,52 +25,24 @@ static const char *terminal(const char *path) {
   return NULL;
 }
 
-/* Starts it with these as standard input, output and error; returns its exit status, NOT_THERE,
- * or -1 with errno. */
-static int run_gnuplot(int in, int out, int errors) {
-  char name[] = "gnuplot";
-  char *arguments[] = {name, NULL};
-  posix_spawn_file_actions_t actions;
-  pid_t child;
-  int status = 0;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
-  int failure = posix_spawnp(&child, name, &actions, NULL, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure == ENOENT) return NOT_THERE;
-  errno = failure;
-  if (failure) return -1;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
-static enum result not_there(const char *path, struct error *error) {
-  return result_fail(error, RESULT_BAD,
-                     "%s: a plot needs gnuplot, which is not installed (Debian: gnuplot-nox); "
-                     "leave --plot out for the table alone",
-                     path);
+/* RESULT_BAD without gnuplot, RESULT_IO where it fails. */
+static enum result run_gnuplot(const char *path, int in, int out, struct error *error) {
+  static const char *const words[] = {"gnuplot", NULL};
+  struct process process = {.words = words, .in = in, .out = out, .errors = PROCESS_SAID};
+  struct error why;
+  if (process_start(&process, NULL) != RESULT_OK)
+    return result_fail(error, RESULT_BAD,
+                       "%s: a plot needs gnuplot, which is not installed (Debian: gnuplot-nox); "
+                       "leave --plot out for the table alone",
+                       path);
+  if (process_wait(&process, &why) == RESULT_OK) return RESULT_OK;
+  return result_fail(error, RESULT_IO, "%s: gnuplot failed: %s", path, why.text);
 }
 
 enum result plot_check(const char *path, struct error *error) {
   if (!terminal(path))
     return result_fail(error, RESULT_BAD, "%s: a plot must end in .svg or .png", path);
-  int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-  if (nothing < 0) return result_fail(error, RESULT_IO, "/dev/null: %s", strerror(errno));
-  int status = run_gnuplot(nothing, nothing, nothing);
-  close(nothing);
-  return status == 0 ? RESULT_OK : not_there(path, error);
-}
-
-/* What gnuplot complained of, its first line with words. */
-static void first_words(FILE *said, char words[200]) {
-  rewind(said);
-  words[0] = 0;
-  while (fgets(words, 200, said))
-    if (words[strspn(words, " \t\r\n^")]) break;
-  result_one_line(words);
+  return run_gnuplot(path, PROCESS_NOTHING, PROCESS_NOTHING, error);
 }
 
 /* gnuplot does not look whether its words get to the disk: the last must be there. */
@@ -88,35 +56,26 @@ static bool is_whole(int out) {
   return false;
 }
 
-static enum result draw(const char *path, const char *script, FILE *in, FILE *said, int out,
+static enum result draw(const char *path, const char *script, FILE *in, int out,
                         struct error *error) {
-  char words[200];
   bool good = fprintf(in, "%s\n%s", terminal(path), script) > 0 && fflush(in) == 0;
   if (!good || lseek(fileno(in), 0, SEEK_SET) != 0)
     return result_fail(error, RESULT_IO, "%s: gnuplot's script: %s", path, strerror(errno));
-  int status = run_gnuplot(fileno(in), out, fileno(said));
-  if (status == NOT_THERE) return not_there(path, error);
-  if (status == 0 && is_whole(out)) return RESULT_OK;
-  first_words(said, words);
-  if (status == 0 && !*words)
-    return result_fail(error, RESULT_IO, "%s: gnuplot did not write all of it; is the disk full?",
-                       path);
-  return result_fail(error, RESULT_IO, "%s: gnuplot failed: %s", path, words);
+  enum result result = run_gnuplot(path, fileno(in), out, error);
+  if (result == RESULT_OK && !is_whole(out))
+    result = result_fail(error, RESULT_IO, "%s: gnuplot did not write all of it; is the disk full?",
+                         path);
+  return result;
 }
 
 enum result plot_write(const char *path, const char *script, struct error *error) {
   struct output output = {0};
-  FILE *in = tmpfile(), *said = tmpfile();
-  enum result result = RESULT_OK;
-  if (!in || !said)
-    result = result_fail(error, RESULT_IO, "%s: a temporary file: %s", path, strerror(errno));
-  if (result == RESULT_OK) result = output_begin(&output, path, error);
-  if (result == RESULT_OK) {
-    result = draw(path, script, in, said, output.fd, error);
-    if (result == RESULT_OK) result = output_commit(&output, error);
-    output_abandon(&output);
-  }
-  if (in) fclose(in);
-  if (said) fclose(said);
+  FILE *in = tmpfile();
+  if (!in) return result_fail(error, RESULT_IO, "%s: a temporary file: %s", path, strerror(errno));
+  enum result result = output_begin(&output, path, error);
+  if (result == RESULT_OK) result = draw(path, script, in, output.fd, error);
+  if (result == RESULT_OK) result = output_commit(&output, error);
+  output_abandon(&output);
+  fclose(in);
   return result;
 }

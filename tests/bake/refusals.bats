@@ -68,7 +68,7 @@ setup() { bake_setup; }
 }
 
 @test "POV-Ray missing, another program, another version, a broken one" {
-  refused 1 '/nonexistent: cannot be run; install POV-Ray' x.tif \
+  refused 1 '/nonexistent: cannot be run .No such file.*; install POV-Ray' x.tif \
     bake flat.pov -o x.tif --povray /nonexistent
   refused 1 'true: does not say that it is POV-Ray' x.tif bake flat.pov -o x.tif --povray true
   printf '#!/bin/sh\necho "POV-Ray 3.6.1" >&2\n' >old
