@@ -1,5 +1,5 @@
 # The reference renderer: its library, the program and its man pages.
-RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c))
+RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c)) $(patsubst %.cc,$(B)/%.o,$(wildcard render/*/*.cc))
 
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
 
@@ -20,6 +20,8 @@ $(RENDER_BIN): $(B)/render/main.o $(B)/librender.a $(B)/libslab.a
 	@mkdir -p $(@D)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(RENDER_LIBS) $(ALL_LDLIBS) -o $@
+
+$(RENDER_BIN): | $(IMAGE)
 
 RENDER_PAGES := $(B)/man/renderslab.1 $(patsubst render/cmd/cmd_%.c,$(B)/man/renderslab-%.1,$(wildcard render/cmd/cmd_*.c))
 MAN_PAGES += $(RENDER_PAGES)

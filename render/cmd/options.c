@@ -231,7 +231,8 @@ static const struct argp_option light_options[] = {
      "and where it is; may be repeated",
      0},
     {"repair", OPTION_REPAIR, NULL, 0,
-     "Mend the mesh: drop triangles without area, make up normals and materials", 0},
+     "Mend the mesh: drop repeated triangles and those without area, make up normals and materials",
+     0},
     {0}};
 
 static const struct argp_option sum_options[] = {

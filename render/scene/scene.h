@@ -60,12 +60,13 @@ enum scene_needs {
 
 /* Refuses, naming the file, the mesh and the triangle: NaN, triangles without area (a height
  * below single precision) and, for SCENE_SURFACES, meshes without normals or materials. With
- * `repair` it drops such triangles, gives flat normals and a white material instead (NaN is
- * still refused) and says in `note` what it did, or leaves it empty.
+ * `repair` it drops such triangles and those that repeat another one, gives flat normals and a
+ * white material instead (NaN is still refused) and says in `note` what it did, or leaves it
+ * empty.
  *
  * For SCENE_SHAPE, normal, uv, material, materials and textures are NULL.
- * Textures are read by the program oiiotool: floating-point files and files that say so are
- * linear, all others sRGB. */
+ * Textures are read by slab_image.h: floating-point files and files that say so are linear, all
+ * others sRGB. */
 enum result scene_load(const char *path, enum scene_needs needs, bool repair, struct scene *scene,
                        char note[256], struct error *error);
 void scene_free(struct scene *scene); /* zeroed scene allowed */

@@ -50,6 +50,7 @@ static enum result import(struct scene_loading *loading, struct error *error) {
     goto out;
   }
   result = scene_import_meshes(loading, from, used, error);
+  if (result == RESULT_OK && loading->repair) result = scene_repair(loading, error);
   if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
     result = scene_import_materials(loading, from, used, error);
 out:
@@ -63,6 +64,7 @@ static void write_note(const struct scene_loading *loading, char note[256]) {
     size_t count;
     const char *what;
   } repairs[] = {{loading->dropped, "triangles without area dropped"},
+                 {loading->repeated, "repeated triangles dropped"},
                  {loading->flat, "meshes given flat normals"},
                  {loading->white, "materials made white"},
                  {loading->unread, "unsupported properties of materials ignored"}};

@@ -24,10 +24,11 @@ struct scene_loading {
   struct scene_mtl *mtl; /* what MTL files declare; owned */
   int mtl_count, mtl_room;
   /* what was repaired */
-  size_t dropped; /* triangles */
-  size_t flat;    /* meshes */
-  size_t white;   /* materials */
-  size_t unread;  /* properties of materials */
+  size_t dropped;  /* triangles without area */
+  size_t repeated; /* triangles, dropped too */
+  size_t flat;     /* meshes */
+  size_t white;    /* materials */
+  size_t unread;   /* properties of materials */
 };
 
 struct aiScene;
@@ -46,6 +47,10 @@ const struct scene_mtl *scene_text_material(const struct scene_loading *loading,
 /* Fills in vertices and triangles; *used[material] tells which materials they have. */
 enum result scene_import_meshes(struct scene_loading *loading, const struct aiScene *from,
                                 bool *used, struct error *error);
+
+/* Drops triangles that repeat another one: their corners are the same three points, in whatever
+ * order. The first of them stays, and so does the order of the others. All must have an area. */
+enum result scene_repair(struct scene_loading *loading, struct error *error);
 
 /* Fills in those of the materials that are used, and their textures. */
 enum result scene_import_materials(struct scene_loading *loading, const struct aiScene *from,
