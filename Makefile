@@ -43,6 +43,10 @@ PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs $(PACKAGES_USED) 2>/dev/
 RENDER_USED := assimp libpng epoxy egl glfw3
 RENDER_CFLAGS = $(eval RENDER_CFLAGS := -Irender $(shell pkg-config --cflags $(RENDER_USED) 2>/dev/null))$(RENDER_CFLAGS)
 RENDER_LIBS = $(eval RENDER_LIBS := -lembree3 $(shell pkg-config --libs $(RENDER_USED) 2>/dev/null))$(RENDER_LIBS)
+# What only bakeslab-image uses.
+IMAGE_USED := OpenImageIO
+IMAGE_CFLAGS = $(eval IMAGE_CFLAGS := $(shell pkg-config --cflags $(IMAGE_USED) 2>/dev/null))$(IMAGE_CFLAGS)
+IMAGE_LIBS = $(eval IMAGE_LIBS := $(shell pkg-config --libs $(IMAGE_USED) 2>/dev/null))$(IMAGE_LIBS)
 
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE $(WARN) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab $(PKG_CFLAGS) $(CFLAGS)
 # C++ is for shims around libraries that are C++ (CGAL, OpenImageIO), whose headers are system
@@ -160,6 +164,7 @@ install: all $(LIB_FILES) $(MAN_PAGES) ## install below DESTDIR and prefix
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
 	$(Q)for f in $(MAKE_FILES); do install -D -m 644 $$f $(dest)/share/canned/$${f##*/} || exit 1; done
+	$(Q)install -D -m 755 $(IMAGE) $(dest)/lib/canned/$(notdir $(IMAGE))
 	$(Q)for f in $(LIB_FILES); do install -D -m 644 $$f $(dest)/lib/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done
 	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done

@@ -42,8 +42,16 @@ $(READS): bakeslab/preload/reads.c | $(SETUP_FIRST)
 	$(call say,CC,$@)
 	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -fPIC -shared $< -ldl -o $@
 
+# The only program that loads OpenImageIO.
+IMAGE := $(B)/lib/canned/bakeslab-image
+$(B)/bakeslab/image/bakeslab-image.o: EXTRA_CXXFLAGS = $(IMAGE_CFLAGS)
+$(IMAGE): $(B)/bakeslab/image/bakeslab-image.o
+	@mkdir -p $(@D)
+	$(call say,LINK,$@)
+	$(Q)$(CXX) $(ALL_LDFLAGS) $^ $(IMAGE_LIBS) $(LDLIBS) -o $@
+
 $(B)/share/canned/include-pov:
 	@mkdir -p $(@D)
 	$(Q)ln -sfn $(CURDIR)/include-pov $@
 
-$(BAKE_BIN): | $(READS) $(B)/share/canned/include-pov
+$(BAKE_BIN): | $(READS) $(IMAGE) $(B)/share/canned/include-pov

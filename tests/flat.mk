@@ -22,6 +22,11 @@ TEST_ENV = BAKESLAB=$(abspath $(BAKE_BIN)) RENDERSLAB=$(abspath $(RENDER_BIN)) C
 
 .PHONY: test bench lint
 
+# Programs find bakeslab-image relative to themselves, those of tests too.
+$(B)/tests/lib: | $(IMAGE)
+	@mkdir -p $(@D) && ln -sfn ../lib $@
+$(TEST_LOGS): | $(B)/tests/lib
+
 test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
 	@sh tests/summary.sh $(TEST_LOGS)
@@ -40,7 +45,7 @@ $(BENCH_SUM): $(B)/tests/bench/sum.o $(B)/tests/bench/roofline.o $(B)/librender.
 
 BENCH_FRAMES := $(B)/tests/bench/frames
 
-$(BENCH_FRAMES): $(B)/tests/bench/frames.o $(B)/librender.a $(B)/libslab.a
+$(BENCH_FRAMES): $(B)/tests/bench/frames.o $(B)/librender.a $(B)/libslab.a | $(B)/tests/lib
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(RENDER_LIBS) $(ALL_LDLIBS) -o $@
 

@@ -2,6 +2,8 @@
 
 #include <errno.h>
 #include <ftw.h>
+#include <libgen.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +13,17 @@
 char *files_join(const char *directory, const char *name) {
   char *path = NULL;
   if (asprintf(&path, "%s/%s", directory, name) < 0) return NULL;
+  return path;
+}
+
+char *files_beside_program(const char *name) {
+  char program[PATH_MAX];
+  ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
+  if (n <= 0) return NULL;
+  program[n] = 0;
+  char *joined = files_join(dirname(dirname(program)), name);
+  char *path = joined ? realpath(joined, NULL) : NULL;
+  free(joined);
   return path;
 }
 

@@ -10,6 +10,11 @@
 /* Joins a folder and a name into a new string, or NULL; the caller frees it. */
 char *files_join(const char *directory, const char *name);
 
+/* The path of something that is there, relative to the folder above the running program's, built
+ * or installed: bin/bakeslab, lib/canned/, share/canned/. NULL where it is not; the caller frees
+ * it. */
+char *files_beside_program(const char *name);
+
 /* The text of directory/name with a 0 at its end; the caller frees it. NULL with errno set
  * where it cannot be read. */
 char *files_read(const char *directory, const char *name);

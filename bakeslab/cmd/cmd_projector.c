@@ -64,7 +64,7 @@ static const char doc[] =
     "The projector is at the origin and shines along +z. The picture is upright (+y) and not "
     "mirrored, as seen from the projector.\n"
     "\n"
-    "IMAGE is PNG, JPEG, TIFF, EXR or what else oiiotool reads. Floating-point files are linear, "
+    "IMAGE is PNG, JPEG, TIFF, EXR or what else OpenImageIO reads. Floating-point files are linear, "
     "others sRGB unless they say that they are linear. Transparent pixels are refused. The lamp's "
     "name in POV-Ray is that of the output, if it is an identifier.\n"
     "\n"

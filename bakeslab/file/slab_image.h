@@ -1,5 +1,5 @@
-/* slab_image.h - images of any format: PNG, JPEG, TIFF, EXR and what else the program oiiotool,
- * which it runs, can read. */
+/* slab_image.h - images of any format that OpenImageIO knows: PNG, JPEG, TIFF, EXR and many
+ * more, but no light slabs. The program lib/canned/bakeslab-image reads them. */
 #ifndef SLAB_IMAGE_H
 #define SLAB_IMAGE_H
 
@@ -15,7 +15,7 @@
  *
  * `path` is the file or, where `bytes` are given, only what messages call it. `suffix` is the
  * format's name, as in file names; NULL: as `path` ends. RESULT_BAD for what is no image and for
- * values that are negative or not finite, RESULT_IO without the file or oiiotool. */
+ * values that are negative or not finite, RESULT_IO without the file or the program. */
 enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
                             struct picture *picture, bool *transparent, struct error *error);
 

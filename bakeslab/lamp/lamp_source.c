@@ -11,19 +11,6 @@
 #include "base/files.h"
 #include "lamp/lamp.h"
 
-/* A path relative to the folder above the running program's, built or installed:
- * bin/bakeslab, lib/canned/, share/canned/. */
-static char *beside_program(const char *name) {
-  char program[PATH_MAX];
-  ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
-  if (n <= 0) return NULL;
-  program[n] = 0;
-  char *joined = files_join(dirname(dirname(program)), name);
-  char *path = joined ? realpath(joined, NULL) : NULL;
-  free(joined);
-  return path;
-}
-
 enum result lamp_source_open(const char *script, const char *const *libraries,
                              struct lamp_source *source, struct error *error) {
   *source = (struct lamp_source){.script = script};
@@ -39,8 +26,8 @@ enum result lamp_source_open(const char *script, const char *const *libraries,
   source->folder = copy ? strdup(dirname(copy)) : NULL;
   free(copy);
   if (!source->folder) return result_no_memory(error);
-  source->include_pov = beside_program("share/canned/include-pov");
-  source->reads = beside_program("lib/canned/reads.so");
+  source->include_pov = files_beside_program("share/canned/include-pov");
+  source->reads = files_beside_program("lib/canned/reads.so");
   if (!source->include_pov || !source->reads)
     return result_fail(
         error, RESULT_IO,

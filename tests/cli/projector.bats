@@ -15,12 +15,12 @@ setup() {
 }
 
 # refuses STATUS PIECES... -- ARGUMENTS: one line with the pieces; neither a slab nor anything
-# else is left. The variable `path` may say where programs are.
+# else is left. The variable `program` may name another bakeslab.
 refuses() {
   local wanted=$1 pieces=() piece
   while shift && [ "$1" != -- ]; do pieces+=("$1"); done
   shift
-  run --separate-stderr env PATH="${path:-$PATH}" "$BAKESLAB" projector "$@"
+  run --separate-stderr "${program:-$BAKESLAB}" projector "$@"
   if [ "$status" -ne "$wanted" ] || [ "${#stderr_lines[@]}" -ne 1 ]; then
     echo "status $status: $stderr"
     return 1
@@ -80,7 +80,15 @@ refuses() {
   refuses 1 "glass.png: has transparent pixels; put it on black first" -- glass.png -o s.tif "${where[@]}"
   refuses 1 "nan.pfm: column 0, row 0 holds a value that is negative or not finite" -- nan.pfm -o s.tif "${where[@]}"
   refuses 1 "negative.pfm: column 0, row 0" -- negative.pfm -o s.tif "${where[@]}"
-  path=/nowhere refuses 1 "four.ppm: oiiotool, which reads images, cannot be run; install it" -- four.ppm -o s.tif "${where[@]}"
+  "$BAKESLAB" projector four.ppm -o slab.tif "${where[@]}"
+  "$BAKESLAB" projector four.ppm -o slab.exr "${where[@]}"
+  for name in slab.tif slab.exr; do
+    refuses 1 "$name: is a light slab" -- "$name" -o s.tif "${where[@]}"
+  done
+  mkdir -p alone/bin
+  cp "$BAKESLAB" alone/bin
+  program=alone/bin/bakeslab refuses 1 "four.ppm: lib/canned/bakeslab-image, which reads images, is not where" -- \
+    four.ppm -o s.tif "${where[@]}"
 }
 
 @test "outputs that cannot be" {

@@ -17,6 +17,7 @@ setup_file() {
   cmp "$ROOT/README.md" "$PREFIX/share/doc/canned/README.md"
   cmp "$ROOT/lamps/parabolic.pov" "$PREFIX/share/doc/canned/lamps/parabolic.pov"
   [ -s "$PREFIX/lib/canned/reads.so" ]
+  [ -x "$PREFIX/lib/canned/bakeslab-image" ]
   [ -s "$PREFIX/share/man/man5/light-slab.5" ]
   for program in bakeslab renderslab; do
     [ -x "$PREFIX/bin/$program" ]
