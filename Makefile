@@ -120,19 +120,23 @@ ifneq ($(SETUP),no)
 	      $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing; } \
 	      </dev/null >$$log 2>&1 || { tail -n 20 $$log; echo "make setup: apt could not install$$missing" >&2; exit 1; }; \
 	  fi; \
-	elif ! pkg-config --exists $(PACKAGES_USED) $(RENDER_USED) 2>/dev/null; then \
-	  echo 'make setup: no apt here: install a C compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, Embree 3, assimp, libpng, GLFW, POV-Ray 3.7 and oiiotool (make lamps: jq; tests: cmocka, GMP, bats, gnuplot, help2man, scdoc, tiffcp, groff, chromium, Xvfb, xdotool) by other means' >&2; exit 1; \
+	elif ! pkg-config --exists $(PACKAGES_USED) $(RENDER_USED) $(IMAGE_USED) 2>/dev/null; then \
+	  echo 'make setup: no apt here: install a C and a C++ compiler, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, CGAL, OpenImageIO, Embree 3, assimp, libpng, GLFW, POV-Ray 3.7 and oiiotool (make lamps: jq; tests: cmocka, GMP, bats, gnuplot, help2man, scdoc, tiffcp, groff, chromium, Xvfb, xdotool) by other means' >&2; exit 1; \
 	fi
 endif
 
 # ---- Compiling. The flags are a file, so that other flags rebuild.
 $(B)/flags: FORCE | $(SETUP_FIRST)
 	@mkdir -p $(@D)
-	@pkg-config --exists $(PACKAGES_USED) $(RENDER_USED) 2>/dev/null || { \
-	  echo 'The libraries $(PACKAGES_USED) $(RENDER_USED) (pkg-config names) are not all here: run `make setup`.' >&2; exit 1; }
+	@missing=; for p in $(PACKAGES_USED) $(RENDER_USED) $(IMAGE_USED); do pkg-config --exists $$p 2>/dev/null || missing="$$missing $$p"; done; \
+	  [ -z "$$missing" ] || { echo "Not here (pkg-config names):$$missing: run \`make setup\`." >&2; exit 1; }
+	@pkg-config --atleast-version=3.1 OpenEXR || { \
+	  echo "OpenEXR $$(pkg-config --modversion OpenEXR) is here, but 3.1 or newer is needed, as Debian 12 has." >&2; exit 1; }
 	@echo '#include <embree3/rtcore.h>' | $(CC) $(ALL_CFLAGS) -E -x c - >$@.new 2>&1 || { \
 	  echo 'The library Embree 3 (embree3/rtcore.h) is not here: run `make setup`.' >&2; exit 1; }
-	@printf '%s\n' $(call quote,$(CC) $(ALL_CFLAGS) / $(RENDER_CFLAGS) / $(CXX) $(ALL_CXXFLAGS) / $(ALL_LDFLAGS) $(RENDER_LIBS) $(ALL_LDLIBS)) >$@.new
+	@echo '#include <CGAL/version.h>' | $(CXX) $(ALL_CXXFLAGS) -E -x c++ - >$@.new 2>&1 || { \
+	  echo 'The library CGAL (CGAL/version.h), or the compiler $(CXX), is not here: run `make setup`.' >&2; exit 1; }
+	@printf '%s\n' $(call quote,$(CC) $(ALL_CFLAGS) / $(RENDER_CFLAGS) / $(CXX) $(ALL_CXXFLAGS) $(IMAGE_CFLAGS) / $(ALL_LDFLAGS) $(RENDER_LIBS) $(IMAGE_LIBS) $(ALL_LDLIBS)) >$@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 $(B)/%.o: %.c $(B)/flags

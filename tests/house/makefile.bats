@@ -23,18 +23,42 @@ load house
   [[ $output == *"T=unit/test_nonsense names no test"*"house/makefile"* ]]
 }
 
-@test "without the libraries, make all says make setup" {
-  PKG_CONFIG_LIBDIR=/nowhere PKG_CONFIG_PATH='' run house_make B="$BATS_TEST_TMPDIR" all
+# says LINE VARIABLE=VALUE...: `make all` with these stops with that one line.
+says() {
+  local line=$1
+  shift
+  run house_make B="$BATS_TEST_TMPDIR/b" "$@" all
   [ "$status" -ne 0 ]
-  [[ $output == *'libtiff-4'*'libpng'*'run `make setup`'* ]]
+  [ "$(grep -vE '^(make:|CC) ' <<<"$output")" = "$line" ] || { echo "$output"; return 1; }
 }
 
-@test "without Embree, make all says make setup" {
+# A compiler that finds no header, as $BATS_TEST_TMPDIR/cc.
+blind_compiler() {
   printf '#!/bin/sh\ncase $* in *" -E "*) exit 1 ;; esac\nexec gcc "$@"\n' >"$BATS_TEST_TMPDIR/cc"
   chmod +x "$BATS_TEST_TMPDIR/cc"
-  run house_make B="$BATS_TEST_TMPDIR/b" CC="$BATS_TEST_TMPDIR/cc" all
-  [ "$status" -ne 0 ]
-  [[ $output == *'Embree 3 (embree3/rtcore.h) is not here: run `make setup`'* ]]
+}
+
+@test "without the libraries, make all says make setup" {
+  PKG_CONFIG_LIBDIR=/nowhere PKG_CONFIG_PATH='' says \
+    'Not here (pkg-config names): libtiff-4 OpenEXR jansson libxxhash assimp libpng epoxy egl glfw3 OpenImageIO: run `make setup`.'
+}
+
+@test "without OpenImageIO, or with an old OpenEXR, make all says so" {
+  mkdir "$BATS_TEST_TMPDIR/pc" "$BATS_TEST_TMPDIR/old"
+  pkg-config --variable pc_path pkg-config | tr : '\n' | while read -r folder; do
+    find "$folder" -name '*.pc' -exec ln -sf -t "$BATS_TEST_TMPDIR/pc" {} + 2>/dev/null || true
+  done
+  rm "$BATS_TEST_TMPDIR/pc/OpenImageIO.pc"
+  PKG_CONFIG_LIBDIR=$BATS_TEST_TMPDIR/pc says 'Not here (pkg-config names): OpenImageIO: run `make setup`.'
+  printf 'Name: OpenEXR\nDescription: old\nVersion: 2.5.7\n' >"$BATS_TEST_TMPDIR/old/OpenEXR.pc"
+  PKG_CONFIG_PATH=$BATS_TEST_TMPDIR/old says 'OpenEXR 2.5.7 is here, but 3.1 or newer is needed, as Debian 12 has.'
+}
+
+@test "without Embree or CGAL, make all says make setup" {
+  blind_compiler
+  says 'The library Embree 3 (embree3/rtcore.h) is not here: run `make setup`.' CC="$BATS_TEST_TMPDIR/cc"
+  says "The library CGAL (CGAL/version.h), or the compiler $BATS_TEST_TMPDIR/cc, is not here: run \`make setup\`." \
+    CXX="$BATS_TEST_TMPDIR/cc"
 }
 
 @test "other flags rebuild, the same flags do not" {
