@@ -1,6 +1,5 @@
-/* process.h - other programs, run as processes that end with this one.
- *
- * A program gets a process group of its own, so that Ctrl-C reaches only its parent. */
+/* process.h - other programs, run as processes that end with this one. Each has a process group
+ * of its own, so that Ctrl-C reaches only its parent. */
 #ifndef PROCESS_H
 #define PROCESS_H
 
@@ -9,8 +8,14 @@
 #include "base/result.h"
 
 enum {
+  PROCESS_MISSING = 127, /* exit status: it cannot be run */
+  PROCESS_SIGNAL = 128   /* exit statuses above: killed by signal status - 128 */
+};
+
+/* What a standard stream may be, but for a descriptor: */
+enum {
   PROCESS_NOTHING = -1, /* /dev/null */
-  PROCESS_SAID = -2     /* kept in `said`, for messages: what exceeds it may get lost */
+  PROCESS_SAID = -2     /* output that is kept in `said`, as far as there is room */
 };
 
 struct process {
@@ -19,27 +24,26 @@ struct process {
   const char *const *environment; /* names, each with its value after it, that are set for it;
                                      NULL-terminated; NULL: none */
   const char *folder;             /* where it runs; NULL: here */
-  int in, out, errors;            /* its standard streams: descriptors or one of the above */
+  int in, out, errors;            /* its standard streams */
 
-  /* What process_start and process_wait fill in: */
+  /* filled in: */
   pid_t pid;
-  int said_end; /* of a pipe */
+  int exit; /* status */
   char said[4096];
+  int said_end; /* of its pipe */
 };
 
-/* Starts it. RESULT_IO where it cannot be run: "PROGRAM: cannot be run (why)". */
+/* Starts it. That it cannot be run is told by its end, on its standard error. */
 enum result process_start(struct process *process, struct error *error);
 
-/* Waits for what was started, and judges it by process_judge. */
+/* Waits for its end. Unless its exit status is 0: RESULT_IO with the first line of `said` that has
+ * words, or "PROGRAM was killed by signal N (name)" or "PROGRAM failed with exit status N". */
 enum result process_wait(struct process *process, struct error *error);
 
-/* RESULT_OK for the exit status 0, in `status` as waitpid tells it. Else RESULT_IO with the first
- * line of `said` that has words or, where there is none or a signal ended it, "NAME was killed by
- * signal N (its name)" or "NAME failed with exit status N". */
-enum result process_judge(const char *name, int status, const char *said, struct error *error);
+/* Both. */
+enum result process_run(struct process *process, struct error *error);
 
-/* The signal that ended a process, also one that its shell or sandbox told by the exit status
- * 128 + signal; 0: none did. */
-int process_signal(int status);
+/* The exit status in what waitpid tells. */
+int process_exit(int status);
 
 #endif

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include "base/files.h"
@@ -15,47 +14,19 @@
 static const char PROGRAM[] = "lib/canned/bakeslab-image";
 static const char LETTERS[] = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/* A file without a name that holds the bytes; -1 with errno. */
-static int hold(const char *bytes, size_t size) {
-  int file = memfd_create("image", MFD_CLOEXEC);
-  while (file >= 0 && size > 0) {
-    ssize_t put = write(file, bytes, size);
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) {
-      int why = errno;
-      close(file);
-      errno = why;
-      return -1;
-    }
-    bytes += put;
-    size -= (size_t)put;
-  }
-  return file;
-}
-
-/* Reads what the program writes. Closes `end`. */
-static enum result take(int end, struct picture *picture, int *transparent, struct error *error) {
-  FILE *from = fdopen(end, "r");
-  enum result result = RESULT_OK;
-  if (!from) {
-    close(end);
-    return result_fail(error, RESULT_MEMORY, "out of memory");
-  }
-  if (fscanf(from, "%d %d %d%*[^\n]", &picture->width, &picture->height, transparent) != 3) {
-    result = result_fail(error, RESULT_IO, "%s did not say what it read", PROGRAM);
-    goto out;
-  }
-  getc(from); /* the line's end */
+/* Reads what the program writes; where that breaks off, the program's own words say why. */
+static enum result take(FILE *from, struct picture *picture, int *transparent,
+                        struct error *error) {
+  result_fail(error, RESULT_IO, "%s broke off", PROGRAM);
+  if (fscanf(from, "%d %d %d%*[^\n]", &picture->width, &picture->height, transparent) != 3 ||
+      getc(from) != '\n')
+    return RESULT_IO;
   size_t count = (size_t)picture->width * (size_t)picture->height, pixel = 3 * sizeof(float);
   picture->rgb = calloc(count, pixel);
   if (!picture->rgb)
-    result = result_fail(error, RESULT_MEMORY, "out of memory for %d x %d pixels", picture->width,
-                         picture->height);
-  else if (fread(picture->rgb, pixel, count, from) != count)
-    result = result_fail(error, RESULT_IO, "%s broke off", PROGRAM);
-out:
-  fclose(from);
-  return result;
+    return result_fail(error, RESULT_MEMORY, "out of memory for %d x %d pixels", picture->width,
+                       picture->height);
+  return fread(picture->rgb, pixel, count, from) == count ? RESULT_OK : RESULT_IO;
 }
 
 /* Runs the program on an open file. */
@@ -68,15 +39,17 @@ static enum result run(const char *program, const char *suffix, int in, struct p
   if (pipe2(ends, O_CLOEXEC) != 0)
     return result_fail(error, RESULT_IO, "pipe: %s", strerror(errno));
   struct process process = {.words = words, .in = in, .out = ends[1], .errors = PROCESS_SAID};
-  enum result result = process_start(&process, error);
+  FILE *from = fdopen(ends[0], "r");
+  enum result result =
+      from ? process_start(&process, error) : result_fail(error, RESULT_MEMORY, "out of memory");
   close(ends[1]);
-  if (result != RESULT_OK) {
+  bool started = result == RESULT_OK;
+  if (started) result = take(from, picture, transparent, error);
+  if (from)
+    fclose(from);
+  else
     close(ends[0]);
-    return result;
-  }
-  result = take(ends[0], picture, transparent, error);
-  /* Where it told nothing, or not all, its own words say why. */
-  if (process_wait(&process, result == RESULT_MEMORY ? NULL : error) != RESULT_OK &&
+  if (started && process_wait(&process, result == RESULT_MEMORY ? NULL : error) != RESULT_OK &&
       result != RESULT_MEMORY)
     result = RESULT_BAD;
   return result;
@@ -86,25 +59,27 @@ enum result slab_image_read(const char *path, const void *bytes, size_t size, co
                             struct picture *picture, bool *transparent, struct error *error) {
   struct error why;
   const char *dot = strrchr(path, '.');
-  int clear = 0, in = -1;
-  *picture = (struct picture){0};
+  int clear = 0;
   enum result result = RESULT_OK;
+  *picture = (struct picture){0};
+  if (!suffix) suffix = dot ? dot + 1 : "";
   char *program = files_beside_program(PROGRAM);
-  if (!program)
+  FILE *in = bytes ? tmpfile() : fopen(path, "re");
+  if (!in || (bytes && (fwrite(bytes, 1, size, in) != size || fflush(in) != 0)))
+    result = result_fail(&why, RESULT_IO, "%s", strerror(errno));
+  else if (!program)
     result = result_fail(&why, RESULT_IO,
                          "%s, which reads images, is not where this program was installed; run "
                          "`make` or `make install` again",
                          PROGRAM);
-  if (result == RESULT_OK) {
-    in = bytes ? hold(bytes, size) : open(path, O_RDONLY | O_CLOEXEC);
-    if (in < 0) result = result_fail(&why, RESULT_IO, "%s", strerror(errno));
+  else
+    result = run(program, suffix, fileno(in), picture, &clear, &why);
+  if (result != RESULT_OK) {
+    result_fail(error, result, "%s: %s", path, why.text);
+    picture_free(picture);
   }
-  if (!suffix) suffix = dot ? dot + 1 : "";
-  if (result == RESULT_OK) result = run(program, suffix, in, picture, &clear, &why);
-  if (result != RESULT_OK) result_fail(error, result, "%s: %s", path, why.text);
-  if (result != RESULT_OK) picture_free(picture);
   if (transparent) *transparent = clear;
-  if (in >= 0) close(in);
+  if (in) fclose(in);
   free(program);
   return result;
 }

@@ -74,8 +74,9 @@ static void copy_image(const char *suffix) {
   int alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1;
   int colours = spec.nchannels < 3 ? 1 : 3, channels = std::max(colours, alpha + 1);
   size_t width = size_t(spec.width), pixels = width * size_t(spec.height), step = size_t(channels);
-  if (double(pixels) * channels > 0x1p40) throw std::bad_alloc();
-  std::unique_ptr<float[]> all(new float[pixels * step]); /* no memory before it is decoded */
+  bool fits = double(pixels) * channels < 0x1p40;
+  std::unique_ptr<float[]> all(fits ? new (std::nothrow) float[pixels * step] : nullptr);
+  if (!all) throw unreadable("it is too large for the memory");
   if (!in->read_image(0, 0, 0, channels, TypeDesc::FLOAT, all.get()))
     throw unreadable(in->geterror());
   bool linear = is_linear(spec), transparent = false;
@@ -96,7 +97,6 @@ static void copy_image(const char *suffix) {
 
 int main(int argc, char **argv) {
   int errors = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3); /* libraries talk on the other */
-  std::string why;
   if (argc != 2 || !std::freopen("/dev/null", "w", stderr)) {
     dprintf(errors, "usage: bakeslab-image SUFFIX <IMAGE >PIXELS\n");
     return 2;
@@ -104,11 +104,9 @@ int main(int argc, char **argv) {
   try {
     copy_image(argv[1]);
     return 0;
-  } catch (const std::bad_alloc &) {
-    why = unreadable("it is too large for the memory").what();
   } catch (const std::exception &failure) {
-    why = failure.what();
+    std::string why = failure.what();
+    dprintf(errors, "%s\n", why.substr(0, why.find('\n')).c_str());
+    return 1;
   }
-  dprintf(errors, "%s\n", why.substr(0, why.find('\n')).c_str());
-  return 1;
 }

@@ -30,12 +30,11 @@ enum result povray_find(const char *program, struct povray *povray, struct error
   struct process process = {
       .words = words, .in = PROCESS_NOTHING, .out = PROCESS_SAID, .errors = PROCESS_SAID};
   struct error why;
-  if (process_start(&process, &why) != RESULT_OK)
+  if (process_run(&process, &why) != RESULT_OK && process.exit == PROCESS_MISSING)
     return result_fail(error, RESULT_IO,
                        "%s; install POV-Ray 3.7 (Debian: apt install povray) or name it with "
                        "--povray",
                        why.text);
-  process_wait(&process, NULL); /* its words count, not its exit status */
   const char *at = strstr(process.said, "POV-Ray 3.");
   if (!at)
     return result_fail(error, RESULT_BAD,
@@ -152,13 +151,13 @@ static enum result report_log(const struct povray_job *job, struct error *error)
 }
 
 enum result povray_finish(const struct povray_job *job, int status, struct error *error) {
-  struct error why;
-  if (process_judge("POV-Ray", status, "", &why) == RESULT_OK) return RESULT_OK;
-  if (process_signal(status))
-    return result_fail(error, RESULT_IO, "%s; was memory or disk short?", why.text);
-  if (WEXITSTATUS(status) == 2)
-    return result_fail(error, RESULT_STOPPED, "POV-Ray was interrupted");
-  return report_log(job, error);
+  int end = process_exit(status), number = end - PROCESS_SIGNAL;
+  if (number > 0)
+    return result_fail(error, RESULT_IO,
+                       "POV-Ray was killed by signal %d (%s); was memory or disk short?", number,
+                       strsignal(number));
+  if (end == 2) return result_fail(error, RESULT_STOPPED, "POV-Ray was interrupted");
+  return end == 0 ? RESULT_OK : report_log(job, error);
 }
 
 enum result povray_run(const struct povray *povray, const struct povray_job *job,

@@ -48,11 +48,11 @@ enum result sandbox_check(struct error *error) {
       .words = words, .in = PROCESS_NOTHING, .out = PROCESS_SAID, .errors = PROCESS_SAID};
   struct error why;
   sandbox_command(program, "/tmp", NULL, words);
-  if (process_start(&process, &why) != RESULT_OK)
+  if (process_run(&process, &why) == RESULT_OK) return RESULT_OK;
+  if (process.exit == PROCESS_MISSING)
     return result_fail(error, RESULT_IO,
                        "--sandbox: %s; install bubblewrap (Debian: apt install bubblewrap)",
                        why.text);
-  if (process_wait(&process, &why) == RESULT_OK) return RESULT_OK;
   return result_fail(error, RESULT_IO,
                      "--sandbox: bubblewrap cannot make one here, as in some containers (%s)",
                      why.text);

@@ -30,12 +30,12 @@ static enum result run_gnuplot(const char *path, int in, int out, struct error *
   static const char *const words[] = {"gnuplot", NULL};
   struct process process = {.words = words, .in = in, .out = out, .errors = PROCESS_SAID};
   struct error why;
-  if (process_start(&process, NULL) != RESULT_OK)
+  if (process_run(&process, &why) == RESULT_OK) return RESULT_OK;
+  if (process.exit == PROCESS_MISSING)
     return result_fail(error, RESULT_BAD,
                        "%s: a plot needs gnuplot, which is not installed (Debian: gnuplot-nox); "
                        "leave --plot out for the table alone",
                        path);
-  if (process_wait(&process, &why) == RESULT_OK) return RESULT_OK;
   return result_fail(error, RESULT_IO, "%s: gnuplot failed: %s", path, why.text);
 }
 
