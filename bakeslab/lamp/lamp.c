@@ -66,7 +66,8 @@ static enum result run_listing(const struct povray *povray, struct povray_job *j
                                struct error *error) {
   char *folder = realpath(job->directory, NULL);
   char *list = folder ? files_join(folder, "reads.txt") : NULL;
-  const char *const environment[] = {"LD_PRELOAD", "./" LAMP_READS, "CANNED_READS", list, NULL};
+  static const char preload[] = "./" LAMP_READS;
+  const char *const environment[] = {"LD_PRELOAD", preload, "CANNED_READS", list, NULL};
   job->environment = environment;
   enum result result =
       list ? povray_run(povray, job, error) : result_fail(error, RESULT_MEMORY, "out of memory");

@@ -133,7 +133,7 @@ bare_path() {
   bare_path
   run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
   [ "$status" -ne 0 ]
-  [[ ${lines[0]} == *"no apt here: install a C compiler"*libtiff*OpenEXR*jansson*xxhash*Embree*assimp*libpng*POV-Ray* ]]
+  [[ ${lines[0]} == *"no apt here: install a C and a C++ compiler"*libtiff*OpenEXR*jansson*xxhash*CGAL*OpenImageIO*Embree*assimp*libpng*POV-Ray* ]]
 }
 
 @test "neither root nor sudo: setup says what to ask for" {

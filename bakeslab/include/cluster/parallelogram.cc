@@ -1,8 +1,7 @@
-/* parallelogram.cc - CGAL's min_parallelogram_2, behind parallelogram.h. Exact numbers are CGAL's
- * own and Boost's, since GMP's would be one more library to load; the modes of rounding that CGAL
- * checks as the program starts are not used. */
+/* parallelogram.cc - CGAL's min_parallelogram_2, behind parallelogram.h. The exact numbers are
+ * Boost's, since GMP's would be one more library to load; the modes of rounding that CGAL checks
+ * as the program starts are not used. */
 #define CGAL_DISABLE_ROUNDING_MATH_CHECK
-#include <CGAL/MP_Float.h>
 #include <CGAL/boost_mp.h>
 /* the numbers come first */
 #include <CGAL/Simple_cartesian.h>
@@ -14,24 +13,32 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <exception>
 #include <iterator>
+#include <map>
+#include <utility>
 #include <vector>
 
 extern "C" {
 #include "include/cluster/parallelogram.h"
 }
 
-/* A hull needs no division: these numbers are much faster. */
-using hull_point = CGAL::Simple_cartesian<CGAL::MP_Float>::Point_2;
 using point = CGAL::Simple_cartesian<boost::multiprecision::cpp_rational>::Point_2;
 
+/* Counterclockwise. Of points above each other, only the ends can be corners: exact numbers are
+ * slow. */
 static std::vector<point> hull_of(const double (*points)[2], int count) {
-  std::vector<hull_point> all, hull;
-  std::vector<point> found;
-  for (int k = 0; k < count; ++k) all.emplace_back(points[k][0], points[k][1]);
+  std::map<double, std::pair<double, double>> ends; /* by x: the least and the greatest y */
+  std::vector<point> all, hull;
+  for (int k = 0; k < count; ++k) {
+    const double x = points[k][0], y = points[k][1];
+    auto &end = ends.try_emplace(x, y, y).first->second;
+    end = {std::min(end.first, y), std::max(end.second, y)};
+  }
+  for (const auto &[x, y] : ends) {
+    all.emplace_back(x, y.first);
+    all.emplace_back(x, y.second);
+  }
   CGAL::convex_hull_2(all.begin(), all.end(), std::back_inserter(hull));
-  for (const hull_point &p : hull)
-    found.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()));
-  return found;
+  return hull;
 }
 
 /* Counterclockwise from the leftmost. */
