@@ -40,8 +40,7 @@ static enum result run(const char *program, const char *suffix, int in, struct p
     return result_fail(error, RESULT_IO, "pipe: %s", strerror(errno));
   struct process process = {.words = words, .in = in, .out = ends[1], .errors = PROCESS_SAID};
   FILE *from = fdopen(ends[0], "r");
-  enum result result =
-      from ? process_start(&process, error) : result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result = from ? process_start(&process, error) : result_no_memory(error);
   close(ends[1]);
   bool started = result == RESULT_OK;
   if (started) result = take(from, picture, transparent, error);
@@ -57,7 +56,6 @@ static enum result run(const char *program, const char *suffix, int in, struct p
 
 enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
                             struct picture *picture, bool *transparent, struct error *error) {
-  struct error why;
   const char *dot = strrchr(path, '.');
   int clear = 0;
   enum result result = RESULT_OK;
@@ -66,20 +64,17 @@ enum result slab_image_read(const char *path, const void *bytes, size_t size, co
   char *program = files_beside_program(PROGRAM);
   FILE *in = bytes ? tmpfile() : fopen(path, "re");
   if (!in || (bytes && (fwrite(bytes, 1, size, in) != size || fflush(in) != 0)))
-    result = result_fail(&why, RESULT_IO, "%s", strerror(errno));
+    result = result_fail(error, RESULT_IO, "%s", strerror(errno));
   else if (!program)
-    result = result_fail(&why, RESULT_IO,
+    result = result_fail(error, RESULT_IO,
                          "%s, which reads images, is not where this program was installed; run "
                          "`make` or `make install` again",
                          PROGRAM);
   else
-    result = run(program, suffix, fileno(in), picture, &clear, &why);
-  if (result != RESULT_OK) {
-    result_fail(error, result, "%s: %s", path, why.text);
-    picture_free(picture);
-  }
+    result = run(program, suffix, fileno(in), picture, &clear, error);
+  if (result != RESULT_OK) picture_free(picture);
   if (transparent) *transparent = clear;
   if (in) fclose(in);
   free(program);
-  return result;
+  return result_at(result, error, "%s", path);
 }

@@ -51,11 +51,11 @@ static enum result write_probe(const char *directory, const struct effects *effe
   char *scene = NULL;
   size_t size;
   FILE *out = open_memstream(&scene, &size);
-  if (!out) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!out) return result_no_memory(error);
   fputs("#version 3.7;\n", out);
   if (effects) effects_declare(effects, out);
   fputs(probe_scene, out);
-  enum result result = fclose(out) || !scene ? result_fail(error, RESULT_MEMORY, "out of memory")
+  enum result result = fclose(out) || !scene ? result_no_memory(error)
                                              : files_write(directory, "scene.pov", scene, error);
   free(scene);
   return result;
@@ -69,8 +69,7 @@ static enum result run_listing(const struct povray *povray, struct povray_job *j
   static const char preload[] = "./" LAMP_READS;
   const char *const environment[] = {"LD_PRELOAD", preload, "CANNED_READS", list, NULL};
   job->environment = environment;
-  enum result result =
-      list ? povray_run(povray, job, error) : result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result = list ? povray_run(povray, job, error) : result_no_memory(error);
   job->environment = NULL;
   free(list);
   free(folder);

@@ -55,7 +55,7 @@ static enum result write_ini(const struct povray_job *job, struct error *error) 
   char *text = NULL;
   size_t size = 0;
   FILE *ini = open_memstream(&text, &size);
-  if (!ini) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!ini) return result_no_memory(error);
   fprintf(ini,
           "; Written by bakeslab. Again: povray render.ini\n"
           "Input_File_Name=scene.pov\nOutput_File_Name=frame.exr\nOutput_File_Type=E\n"
@@ -71,7 +71,7 @@ static enum result write_ini(const struct povray_job *job, struct error *error) 
     fprintf(ini, "Library_Path=\"%s\"\n", *path);
   if (fclose(ini) != 0 || !text) {
     free(text);
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+    return result_no_memory(error);
   }
   enum result result = files_write(job->directory, "render.ini", text, error);
   free(text);

@@ -56,7 +56,7 @@ enum result scene_repair(struct scene_loading *loading, struct error *error) {
     scene->triangles = kept;
     return RESULT_OK;
   } catch (const std::bad_alloc &) {
-    return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
+    return result_at(result_no_memory(error), error, "%s", loading->path);
   } catch (const std::exception &failure) {
     return result_fail(error, RESULT_BAD, "%s: cannot be repaired: %s", loading->path,
                        failure.what());

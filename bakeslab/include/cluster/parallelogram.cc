@@ -63,7 +63,7 @@ enum result parallelogram_around(const double (*points)[2], int count, parallelo
     }
     return RESULT_OK;
   } catch (const std::bad_alloc &) {
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+    return result_no_memory(error);
   } catch (const std::exception &failure) {
     return result_fail(error, RESULT_BAD, "no parallelogram: %s", failure.what());
   }
