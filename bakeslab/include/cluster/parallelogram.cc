@@ -56,7 +56,7 @@ enum result parallelogram_around(const double (*points)[2], int count, parallelo
     const std::array<point, 4> corners = corners_around(hull_of(points, count));
     for (int c = 0; c < 2; ++c) {
       double at[4];
-      for (int k = 0; k < 4; ++k) at[k] = CGAL::to_double(corners[k][c]);
+      for (std::size_t k = 0; k < 4; ++k) at[k] = CGAL::to_double(corners[k][c]);
       found->center[c] = (at[0] + at[2]) / 2;
       found->edge[0][c] = at[1] - at[0];
       found->edge[1][c] = at[3] - at[0];
