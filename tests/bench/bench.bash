@@ -62,10 +62,14 @@ noise() {
 heading() { printf '\n%s\n' "$1"; }
 # row WHAT MEASURED TARGET [MARK]
 row() { printf '  %-60s %18s  %-8s %s\n' "$1" "$2" "${3-}" "${4-}" | sed 's/ *$//'; }
-# holds EXPRESSION: ok or MISSED, by awk.
-holds() { awk "BEGIN { print ($1) ? \"ok\" : \"MISSED\" }"; }
+# holds EXPRESSION: ok or MISSED. (To awk "nan" and "inf" are variables that hold 0.)
+holds() {
+  if [[ $1 =~ nan|inf ]]; then echo MISSED; else awk "BEGIN { print ($1) ? \"ok\" : \"MISSED\" }"; fi
+}
 # calc FORMAT EXPRESSION
-calc() { awk "BEGIN { printf \"$1\", ($2) }"; }
+calc() {
+  if [[ $2 =~ nan|inf ]]; then echo nan; else awk "BEGIN { printf \"$1\", ($2) }"; fi
+}
 # spread NUMBER...: median (lowest..highest)
 spread() {
   printf '%s\n' "$@" | sort -g | awk '{ x[NR] = $1 }

@@ -249,7 +249,7 @@ static void report(const struct truth *truth, const struct light *light, double 
     product += (sample - one) * (sample - two);
     level += one;
   }
-  double samples = sqrt(fmax(product, 0) / (double)count) / (level / (double)count);
+  double samples = sqrt((product < 0 ? 0 : product) / (double)count) / (level / (double)count);
   printf("%.2f %.3f %.1f\n", 100 * sqrt(square / (SIDE * SIDE)) / mean,
          flux != 0 ? 100 * (flux / truth->flux - 1) : 0, 100 * samples);
 }

@@ -123,7 +123,7 @@ static double difference(const struct hard_case *lit, const struct picture *pict
       size += right * right;
     }
   }
-  return error > 0 ? sqrt(error / size) : 0;
+  return error == 0 ? 0 : sqrt(error / size);
 }
 
 /* Whether the plane at which errors are stated lies before the sheet. */
