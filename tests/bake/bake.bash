@@ -1,6 +1,7 @@
 # What the bake's command-line tests share: a scratch folder each, a small lamp,
 # and what a refusal must look like.
 # shellcheck shell=bash
+load ../needs
 
 bake_setup() {
   cd "$BATS_TEST_TMPDIR" || return 1
@@ -65,6 +66,15 @@ finished() { find "$1" -mindepth 1 -maxdepth 1 -type d -name '??????????????????
 wait_for_batch() {
   local tries=400
   while [ "$(finished "$1")" -eq 0 ]; do
+    [ "$((tries -= 1))" -gt 0 ] || return 1
+    sleep 0.05
+  done
+}
+
+# no_process_left TRIES: no POV-Ray of this test runs on, 20 tries a second.
+no_process_left() {
+  local tries=$1
+  while [ -n "$(find /proc/[0-9]*/cwd -lname "$PWD/*.partial/*" 2>/dev/null)" ]; do
     [ "$((tries -= 1))" -gt 0 ] || return 1
     sleep 0.05
   done

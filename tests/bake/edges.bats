@@ -1,6 +1,6 @@
 #!/usr/bin/env bats
 # A bake in odd surroundings: awkward names, a full disk, streams that are closed,
-# scripts with habits of their own.
+# scripts with unusual text.
 bats_require_minimum_version 1.5.0
 load bake
 

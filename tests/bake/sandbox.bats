@@ -23,6 +23,7 @@ NOSY
 }
 
 needs_walls() {
+  needs bwrap
   run bwrap --unshare-all --ro-bind / / --dev /dev --proc /proc true
   [ "$status" -eq 0 ] || skip "bubblewrap cannot make a sandbox here: $output"
 }
@@ -53,11 +54,7 @@ needs_walls() {
   wait_for_batch x.tif.partial
   kill -KILL "$pid"
   wait "$pid" || true
-  local tries=40
-  while [ -n "$(find /proc/[0-9]*/cwd -lname "$PWD/*.partial/*" 2>/dev/null)" ]; do
-    [ "$((tries -= 1))" -gt 0 ]
-    sleep 0.05
-  done
+  no_process_left 40
 }
 
 @test "without bubblewrap, or where it may make nothing: one clear line" {

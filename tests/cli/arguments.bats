@@ -48,15 +48,13 @@ END
 
 @test "an empty word and a quoted @ are words" {
   printf '""' >b
-  run --separate-stderr "$BAKESLAB" info @b
-  refused 1 "No such file"
+  refuses 1 "No such file" -- "$BAKESLAB" info @b
   for word in "'@x.tif'" '"@x.tif"' '\@x.tif' '@"x.tif"' 'info@x'; do
     echo "$word" >b
-    run --separate-stderr "$BAKESLAB" info @b
     case $word in
-    @*) refused 2 "b: line 1: @x.tif: No such file" ;;
-    info*) refused 1 "info@x: No such file" ;;
-    *) refused 1 "bakeslab: @x.tif: No such file" ;;
+    @*) refuses 2 "b: line 1: @x.tif: No such file" -- "$BAKESLAB" info @b ;;
+    info*) refuses 1 "info@x: No such file" -- "$BAKESLAB" info @b ;;
+    *) refuses 1 "bakeslab: @x.tif: No such file" -- "$BAKESLAB" info @b ;;
     esac
   done
 }
@@ -67,40 +65,26 @@ END
   run --separate-stderr "$BAKESLAB" info @f1
   [ "$status" -eq 0 ]
   echo @f1 >f0
-  run --separate-stderr "$BAKESLAB" info @f0
-  refused 2 "f7: line 1: @f8: files name files more than 8 deep"
+  refuses 2 "f7: line 1: @f8: files name files more than 8 deep" -- "$BAKESLAB" info @f0
   printf '\n\n@self\n' >self
-  run --separate-stderr "$BAKESLAB" info @self
-  refused 2 "self: line 3: @self"
+  refuses 2 "self: line 3: @self" -- "$BAKESLAB" info @self
 }
 
 @test "what cannot be read is one line with the file and the line" {
-  run --separate-stderr "$BAKESLAB" info @none
-  refused 2 "@none: No such file"
-  run --separate-stderr "$BAKESLAB" info @
-  refused 2 "@: a file's name must follow"
-  run --separate-stderr "$BAKESLAB" info @.
-  refused 2 "@.: Is a directory"
+  refuses 2 "@none: No such file" -- "$BAKESLAB" info @none
+  refuses 2 "@: a file's name must follow" -- "$BAKESLAB" info @
+  refuses 2 "@.: Is a directory" -- "$BAKESLAB" info @.
   printf '# one\na.tif @none\n' >b
-  run --separate-stderr "$RENDERSLAB" @b
-  [ "$status" -eq 2 ]
-  # shellcheck disable=SC2154 # run sets it
-  [ "$stderr" = "renderslab: b: line 2: @none: No such file or directory" ]
+  refuses 2 "renderslab: b: line 2: @none: No such file or directory" -- "$RENDERSLAB" @b
   printf '\n"a.tif\n\n' >b
-  run --separate-stderr "$BAKESLAB" info @b
-  refused 2 "b: line 2: this double quote is never closed"
+  refuses 2 "b: line 2: this double quote is never closed" -- "$BAKESLAB" info @b
   printf "a 'b\n\n' 'c\n\n" >b
-  run --separate-stderr "$BAKESLAB" info @b
-  refused 2 "b: line 3: this single quote is never closed"
+  refuses 2 "b: line 3: this single quote is never closed" -- "$BAKESLAB" info @b
   printf '%s' "a.tif \\" >b
-  run --separate-stderr "$BAKESLAB" info @b
-  refused 2 "b: line 1: ends in a backslash"
+  refuses 2 "b: line 1: ends in a backslash" -- "$BAKESLAB" info @b
   printf '@\n' >b
-  run --separate-stderr "$BAKESLAB" info @b
-  refused 2 "b: line 1: @: a file's name must follow"
+  refuses 2 "b: line 1: @: a file's name must follow" -- "$BAKESLAB" info @b
   printf 'a.tif\n\nx\0y' >b
-  run --separate-stderr "$BAKESLAB" info @b
-  refused 2 "b: line 3: has a zero byte"
-  run --separate-stderr "$BAKESLAB" info @a.tif
-  refused 2 "a.tif: line 1: has a zero byte"
+  refuses 2 "b: line 3: has a zero byte" -- "$BAKESLAB" info @b
+  refuses 2 "a.tif: line 1: has a zero byte" -- "$BAKESLAB" info @a.tif
 }

@@ -44,8 +44,7 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
   done
   "$BAKESLAB" include sharp.exr -o out.inc
   "$BAKESLAB" convert edge.tif -o negative.exr --sharpen st
-  run --separate-stderr "$BAKESLAB" include negative.exr -o out2.inc
-  refused 1 "negative"
+  refuses 1 "negative" -- "$BAKESLAB" include negative.exr -o out2.inc
 }
 
 @test "--sharpen st: a constant slab keeps its samples, 1-wide axes too" {
@@ -59,18 +58,14 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
 
 @test "--sharpen refuses points, and what is sharpened already" {
   raw_slab points.tif '[1, 1, 8, 1]' 8 1 ', "samples_are": "points"' "$one" "$one" "$one"
-  run --separate-stderr "$BAKESLAB" convert points.tif -o x.exr --sharpen st
-  refused 1 "points.tif: page 1: its samples are points"
+  refuses 1 "points.tif: page 1: its samples are points" -- "$BAKESLAB" convert points.tif -o x.exr --sharpen st
   "$BAKESLAB" convert edge.tif -o sharp.exr --sharpen st
-  run --separate-stderr "$BAKESLAB" convert sharp.exr -o x.exr --sharpen st
-  refused 1 "sharp.exr: page 1: is sharpened already"
-  run --separate-stderr "$BAKESLAB" convert sharp.exr -o x.exr --st 4x1
-  refused 1 "sharp.exr: page 1: is sharpened" "--st"
+  refuses 1 "sharp.exr: page 1: is sharpened already" -- "$BAKESLAB" convert sharp.exr -o x.exr --sharpen st
+  refuses 1 "sharp.exr: page 1: is sharpened" "--st" -- "$BAKESLAB" convert sharp.exr -o x.exr --st 4x1
   [ ! -e x.exr ]
   # containers and uv are free
   "$BAKESLAB" convert sharp.exr -o copy.tif --precision float --uv 2x1
-  run --separate-stderr "$BAKESLAB" convert copy.tif -o x.exr --sharpen st
-  refused 1 "copy.tif: page 1: is sharpened already"
+  refuses 1 "copy.tif: page 1: is sharpened already" -- "$BAKESLAB" convert copy.tif -o x.exr --sharpen st
   # resampling comes first
   "$BAKESLAB" convert edge.tif -o fewer.exr --st 4x1 --sharpen st
   near "$(lookup fewer.exr -0.75)" 0 0.05
@@ -111,6 +106,5 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
 
 @test "check --error: files that are bad are refused as ever" {
   raw_slab nan.tif '[4, 4, 4, 4]' 16 16 '' 7fc00000
-  run --separate-stderr "$BAKESLAB" check --error nan.tif
-  refused 1 "nan.tif: page 1: sample (0, 0, 0, 0) is not finite"
+  refuses 1 "nan.tif: page 1: sample (0, 0, 0, 0) is not finite" -- "$BAKESLAB" check --error nan.tif
 }

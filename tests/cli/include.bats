@@ -31,28 +31,23 @@ setup() {
 }
 
 @test "a tolerance that nothing meets: which comes closest" {
-  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode sheet --tolerance 1e-9 --distance 0.5
-  refused 1 "even.tif: no light is within 1e-09 at 0.5 aperture widths; closest is the sheet of 2x2 lights" "ask for --tolerance 0."
+  refuses 1 "even.tif: no light is within 1e-09 at 0.5 aperture widths; closest is the sheet of 2x2 lights" "ask for --tolerance 0." -- "$BAKESLAB" include even.tif -o a.inc --mode sheet --tolerance 1e-9 --distance 0.5
   [ ! -e a.inc ]
-  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode point --tolerance 1e-9 --distance 1
-  refused 1 "closest is the point: "
+  refuses 1 "closest is the point: " -- "$BAKESLAB" include even.tif -o a.inc --mode point --tolerance 1e-9 --distance 1
 }
 
 @test "radiance that lights cannot give" {
   for mode in cluster point; do
     raw_slab black.tif '[1, 1, 2, 2]' 2 2 '' 00000000
-    run --separate-stderr "$BAKESLAB" include black.tif -o a.inc --name x --mode $mode
-    refused 1 "black.tif: all radiance is zero"
+    refuses 1 "black.tif: all radiance is zero" -- "$BAKESLAB" include black.tif -o a.inc --name x --mode $mode
     raw_slab negative.tif '[1, 1, 2, 2]' 2 2 '' "$one" "$one" bf800000
-    run --separate-stderr "$BAKESLAB" include negative.tif -o a.inc --name x --mode $mode
-    refused 1 "negative.tif: page 1: radiance -1 of sample (0, 0, 0, 0) is negative"
+    refuses 1 "negative.tif: page 1: radiance -1 of sample (0, 0, 0, 0) is negative" -- "$BAKESLAB" include negative.tif -o a.inc --name x --mode $mode
     [ ! -e a.inc ]
   done
 }
 
 @test "more lights than a cluster may have" {
-  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode cluster --lights 65
-  refused 1 "even.tif: 65 lights are too many for a cluster" "ask for --lights 64"
+  refuses 1 "even.tif: 65 lights are too many for a cluster" "ask for --lights 64" -- "$BAKESLAB" include even.tif -o a.inc --mode cluster --lights 65
   [ ! -e a.inc ]
 }
 

@@ -2,8 +2,8 @@
 # bakeslab projector: which way round the picture is, colours of kinds of images, refusals.
 # Its light is tested in tests/render/test_projector.c.
 
-# shellcheck disable=SC2154 # run sets status and stderr
 bats_require_minimum_version 1.5.0
+load slab
 
 setup() {
   cd "$BATS_TEST_TMPDIR" || return
@@ -14,20 +14,12 @@ setup() {
   where=(--aperture 0.1 --focus 2 --width 1)
 }
 
-# refuses STATUS PIECES... -- ARGUMENTS: one line with the pieces; neither a slab nor anything
-# else is left. The variable `program` may name another bakeslab.
-refuses() {
-  local wanted=$1 pieces=() piece
-  while shift && [ "$1" != -- ]; do pieces+=("$1"); done
-  shift
-  run --separate-stderr "${program:-$BAKESLAB}" projector "$@"
-  if [ "$status" -ne "$wanted" ] || [ "${#stderr_lines[@]}" -ne 1 ]; then
-    echo "status $status: $stderr"
-    return 1
-  fi
-  for piece in "${pieces[@]}"; do
-    [[ $stderr == bakeslab*"$piece"* ]] || { echo "'$stderr' does not say '$piece'"; return 1; }
-  done
+# declines STATUS PIECE... -- ARGUMENT...: refused, and neither a slab nor anything else is left. The
+# variable `program` may name another bakeslab.
+declines() {
+  local before=()
+  while [ "$1" != -- ]; do before+=("$1") && shift; done
+  refuses "${before[@]}" -- "${program:-$BAKESLAB}" projector "${@:2}" || return 1
   [ ! -e s.tif ] && [ ! -e s.exr ] && [ -z "$(ls tmp)" ]
 }
 
@@ -74,47 +66,47 @@ refuses() {
   printf 'Pf\n1 1\n-1\n\0\0\300\177' >nan.pfm
   printf 'Pf\n1 1\n-1\n\0\0\200\277' >negative.pfm
   for name in empty.png nothing.ppm huge.ppm .; do
-    refuses 1 "$name: is no image that can be read" -- "$name" -o s.tif "${where[@]}"
+    declines 1 "$name: is no image that can be read" -- "$name" -o s.tif "${where[@]}"
   done
-  refuses 1 "gone.png: No such file" -- gone.png -o s.tif "${where[@]}"
-  refuses 1 "glass.png: has transparent pixels; put it on black first" -- glass.png -o s.tif "${where[@]}"
-  refuses 1 "nan.pfm: column 0, row 0 holds a value that is negative or not finite" -- nan.pfm -o s.tif "${where[@]}"
-  refuses 1 "negative.pfm: column 0, row 0" -- negative.pfm -o s.tif "${where[@]}"
+  declines 1 "gone.png: No such file" -- gone.png -o s.tif "${where[@]}"
+  declines 1 "glass.png: has transparent pixels; put it on black first" -- glass.png -o s.tif "${where[@]}"
+  declines 1 "nan.pfm: column 0, row 0 holds a value that is negative or not finite" -- nan.pfm -o s.tif "${where[@]}"
+  declines 1 "negative.pfm: column 0, row 0" -- negative.pfm -o s.tif "${where[@]}"
   "$BAKESLAB" projector four.ppm -o slab.tif "${where[@]}"
   "$BAKESLAB" projector four.ppm -o slab.exr "${where[@]}"
   for name in slab.tif slab.exr; do
-    refuses 1 "$name: is a light slab" -- "$name" -o s.tif "${where[@]}"
+    declines 1 "$name: is a light slab" -- "$name" -o s.tif "${where[@]}"
   done
   mkdir -p alone/bin
   cp "$BAKESLAB" alone/bin
-  program=alone/bin/bakeslab refuses 1 "four.ppm: lib/canned/bakeslab-image, which reads images, is not where" -- \
+  program=alone/bin/bakeslab declines 1 "four.ppm: lib/canned/bakeslab-image, which reads images, is not where" -- \
     four.ppm -o s.tif "${where[@]}"
 }
 
 @test "outputs that cannot be" {
-  refuses 1 "s.png: the name must end in .tif, .tiff or .exr" -- four.ppm -o s.png "${where[@]}"
+  declines 1 "s.png: the name must end in .tif, .tiff or .exr" -- four.ppm -o s.png "${where[@]}"
   oiiotool four.ppm -d half -o four.exr
-  refuses 1 "./four.exr: is the image" -- four.exr -o ./four.exr "${where[@]}"
-  refuses 1 "samples" -- four.ppm -o s.tif "${where[@]}" --uv 65536 --st 65536
-  refuses 1 "is not finite" -- four.ppm -o s.exr "${where[@]}" --white 1e39
-  refuses 1 "use --precision float" -- four.ppm -o s.tif "${where[@]}" --white 1e30
+  declines 1 "./four.exr: is the image" -- four.exr -o ./four.exr "${where[@]}"
+  declines 1 "samples" -- four.ppm -o s.tif "${where[@]}" --uv 65536 --st 65536
+  declines 1 "is not finite" -- four.ppm -o s.exr "${where[@]}" --white 1e39
+  declines 1 "use --precision float" -- four.ppm -o s.tif "${where[@]}" --white 1e30
 }
 
 @test "arguments that cannot be" {
-  refuses 2 "no image given" -- -o s.tif "${where[@]}"
-  refuses 2 "one image at a time" -- four.ppm four.ppm -o s.tif "${where[@]}"
-  refuses 2 "no output given" -- four.ppm "${where[@]}"
-  refuses 2 "no opening given: --aperture" -- four.ppm -o s.tif --focus 1 --width 1
-  refuses 2 "no focus given: --focus" -- four.ppm -o s.tif --aperture 1 --width 1
-  refuses 2 "--width" -- four.ppm -o s.tif --aperture 1 --focus 1
+  declines 2 "no image given" -- -o s.tif "${where[@]}"
+  declines 2 "one image at a time" -- four.ppm four.ppm -o s.tif "${where[@]}"
+  declines 2 "no output given" -- four.ppm "${where[@]}"
+  declines 2 "no opening given: --aperture" -- four.ppm -o s.tif --focus 1 --width 1
+  declines 2 "no focus given: --focus" -- four.ppm -o s.tif --aperture 1 --width 1
+  declines 2 "--width" -- four.ppm -o s.tif --aperture 1 --focus 1
   for aperture in 0 0x2 2x 1x-1 nan 1,2 x 1e999; do
-    refuses 2 "--aperture" "must be a positive number" -- four.ppm -o s.tif "${where[@]}" --aperture "$aperture"
+    declines 2 "--aperture" "must be a positive number" -- four.ppm -o s.tif "${where[@]}" --aperture "$aperture"
   done
-  refuses 2 "--uv 0x3: must be NxM" -- four.ppm -o s.tif "${where[@]}" --uv 0x3
-  refuses 2 "--white and --flux" -- four.ppm -o s.tif "${where[@]}" --white 1 --flux 1
-  refuses 2 "radiance_unit is \"lux\"" -- four.ppm -o s.tif "${where[@]}" --unit lux
-  refuses 2 "st_window" -- four.ppm -o s.tif --aperture 1 --focus 1e-200 --width 1e200
-  refuses 2 "area 0" -- four.ppm -o s.tif --aperture 1e-200 --focus 1 --width 1
+  declines 2 "--uv 0x3: must be NxM" -- four.ppm -o s.tif "${where[@]}" --uv 0x3
+  declines 2 "--white and --flux" -- four.ppm -o s.tif "${where[@]}" --white 1 --flux 1
+  declines 2 "radiance_unit is \"lux\"" -- four.ppm -o s.tif "${where[@]}" --unit lux
+  declines 2 "st_window" -- four.ppm -o s.tif --aperture 1 --focus 1e-200 --width 1e200
+  declines 2 "area 0" -- four.ppm -o s.tif --aperture 1e-200 --focus 1 --width 1
 }
 
 @test "one pixel is a light of one colour; children that nobody waits for are no trouble" {

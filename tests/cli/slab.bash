@@ -1,5 +1,8 @@
-# slab.bash - makes small slabs without our own writer: an uncompressed
-# big-endian float TIFF of one strip, by printf.
+# slab.bash - what the command-line tests share: refusals, and small slabs that are made without our
+# own writer, as an uncompressed big-endian float TIFF of one strip, by printf.
+# shellcheck shell=bash
+load ../needs
+
 # raw_slab FILE SAMPLES(JSON) WIDTH HEIGHT MORE_JSON HEXFLOATS...
 # The variable `version` may name another version of the format.
 # The floats (8 hex digits each) repeat until the raster is full.
@@ -31,15 +34,18 @@ raw_slab() {
   printf "$(printf '%s' "$hex" | sed 's/../\\x&/g')" >"$file"
 }
 
-# The last command failed with one line on stderr that says all of the pieces.
-# Use with: run --separate-stderr
+# refuses STATUS PIECE... -- COMMAND...: it exits so, with one line on stderr that begins with a
+# program's name and says all of the pieces.
 # shellcheck disable=SC2154 # status and stderr are set by run
-refused() {
-  local status_wanted=$1 piece
+refuses() {
+  local wanted=$1 pieces=() piece
+  while shift && [ "$1" != -- ]; do pieces+=("$1"); done
   shift
-  [ "$status" -eq "$status_wanted" ] || { echo "status $status"; return 1; }
+  run --separate-stderr "$@"
+  [ "$status" -eq "$wanted" ] || { echo "status $status: $stderr"; return 1; }
   [ "${#stderr_lines[@]}" -eq 1 ] || { echo "not one line: $stderr"; return 1; }
-  for piece in "bakeslab: " "$@"; do
+  [[ $stderr == @(bakeslab|renderslab)*": "* ]] || { echo "no program's name: $stderr"; return 1; }
+  for piece in "${pieces[@]}"; do
     [[ $stderr == *"$piece"* ]] || { echo "'$stderr' does not say '$piece'"; return 1; }
   done
 }

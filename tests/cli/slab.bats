@@ -62,19 +62,16 @@ END
 
 @test "lookup refuses bad lines by number" {
   for line in "1 2 3 4 5" "1 2 3 4 5 6 7" "0 0 0 0 0 0" "0 0 nan 0 -1 0" "a b c d e f" "0 0 0 0 inf 0"; do
-    run --separate-stderr "$BAKESLAB" lookup a.tif <<<"0 0 0 0 -1 0
+    refuses 1 "stdin: line 2" -- "$BAKESLAB" lookup a.tif <<<"0 0 0 0 -1 0
 $line"
-    refused 1 "stdin: line 2"
   done
-  run --separate-stderr "$BAKESLAB" lookup - <a.tif
-  refused 2 "-: the rays come from stdin"
-  run --separate-stderr "$BAKESLAB" lookup --page 2 a.tif </dev/null
-  refused 1 "a.tif: has no page 2"
+  refuses 2 "-: the rays come from stdin" -- "$BAKESLAB" lookup - <a.tif
+  refuses 1 "a.tif: has no page 2" -- "$BAKESLAB" lookup --page 2 a.tif </dev/null
 }
 
 @test "lookup adds pages, --page takes one" {
   "$BAKESLAB" convert a.tif -o f.tif --precision float
-  command -v tiffcp >/dev/null || skip "no tiffcp"
+  needs tiffcp
   tiffcp f.tif f.tif two.tif
   run --separate-stderr "$BAKESLAB" lookup two.tif <<<"0 0 0 0 -1 0"
   [ "$output" = "5 1 0" ]
@@ -113,18 +110,15 @@ $line"
   [ "${lines[0]}" = "3 0.5 0" ]
   [ "${lines[1]}" = "0 0 0" ]
   [ "${lines[2]}" = "0 0 0" ]
-  run --separate-stderr "$BAKESLAB" convert a.tif -o x.exr --crop uv=1:3,0:1
-  refused 1 "a.tif: page 1" "crop u"
+  refuses 1 "a.tif: page 1" "crop u" -- "$BAKESLAB" convert a.tif -o x.exr --crop uv=1:3,0:1
   [ ! -e x.exr ]
 }
 
 @test "convert refuses what a precision cannot hold, and leaves nothing" {
   raw_slab neg.tif '[1, 1, 1, 1]' 1 1 '' bf800000 bf800000 bf800000
-  run --separate-stderr "$BAKESLAB" convert neg.tif -o out.tif
-  refused 1 "out.tif: page 1: sample (0, 0, 0, 0)" "--precision float"
+  refuses 1 "out.tif: page 1: sample (0, 0, 0, 0)" "--precision float" -- "$BAKESLAB" convert neg.tif -o out.tif
   raw_slab big.tif '[1, 1, 1, 1]' 1 1 '' 47c35000 "$one" "$one"
-  run --separate-stderr "$BAKESLAB" convert big.tif -o out.exr --precision half
-  refused 1 "out.exr: page 1" "--precision float"
+  refuses 1 "out.exr: page 1" "--precision float" -- "$BAKESLAB" convert big.tif -o out.exr --precision half
   [ -z "$(ls out* 2>/dev/null)" ]
 }
 
@@ -139,8 +133,7 @@ $line"
   run --separate-stderr "$BAKESLAB" diff --tolerance 9 a.tif s.exr
   [ "$status" -eq 1 ]
   [[ $output == *'"samples" differs'* ]]
-  run --separate-stderr "$BAKESLAB" diff a.tif none.tif
-  refused 2 "none.tif" "No such file"
+  refuses 2 "none.tif" "No such file" -- "$BAKESLAB" diff a.tif none.tif
   run --separate-stderr "$BAKESLAB" diff a.tif
   [ "$status" -eq 2 ]
 }
@@ -159,7 +152,7 @@ $line"
 }
 
 @test "check: flux at the aperture and on a box around; light that is there twice" {
-  command -v tiffcp >/dev/null || skip "no tiffcp"
+  needs tiffcp
   raw_slab even.tif '[1, 1, 2, 2]' 2 2 ', "metres_per_unit": 2' "$one" "$one" "$one"
   run --separate-stderr "$BAKESLAB" check even.tif
   [ "$status" -eq 0 ]
@@ -186,8 +179,7 @@ $line"
       want=1
       if [ "$command" = diff ]; then other=a.tif want=2; fi
       # shellcheck disable=SC2086
-      run --separate-stderr "$BAKESLAB" $command $bad $other <<<"0.05 0 0 0 -1 0"
-      refused $want "$bad: "
+      refuses $want "$bad: " -- "$BAKESLAB" $command $bad $other <<<"0.05 0 0 0 -1 0"
       case $bad in
       nan.tif) why='page 1: sample (0, 0, 1, 0) is not finite' ;;
       wrong.tif) why='page 1: "samples" 2 x 1 x 2 x 3 need 4 x 3 pixels, there are 4 x 2' ;;
@@ -205,8 +197,7 @@ $line"
   done
   [ ! -e out.exr ]
   # before any sample is asked for
-  run --separate-stderr "$BAKESLAB" lookup short.tif </dev/null
-  refused 1 "short.tif: page 1: is truncated"
+  refuses 1 "short.tif: page 1: is truncated" -- "$BAKESLAB" lookup short.tif </dev/null
 }
 
 @test "convert to stdout: the same slab as in a file" {
@@ -222,8 +213,7 @@ $line"
   done
   [ ! -e - ]
   raw_slab neg.tif '[1, 1, 1, 1]' 1 1 '' bf800000 bf800000 bf800000
-  run --separate-stderr "$BAKESLAB" convert neg.tif -o -
-  refused 1 "stdout: page 1: sample (0, 0, 0, 0)" "--precision float"
+  refuses 1 "stdout: page 1: sample (0, 0, 0, 0)" "--precision float" -- "$BAKESLAB" convert neg.tif -o -
   [ -z "$output" ]
   [ -c /dev/full ] || skip "no /dev/full"
   run bash -c '"$0" convert a.tif -o - 2>err >/dev/full' "$BAKESLAB"
@@ -248,8 +238,7 @@ $line"
   run --separate-stderr "$BAKESLAB" include -q odd.tif -o odd.inc
   [ "$status" -eq 0 ]
   [ -z "$stderr" ]
-  run --separate-stderr "$BAKESLAB" info -q none.tif
-  refused 1 "none.tif: No such file"
+  refuses 1 "none.tif: No such file" -- "$BAKESLAB" info -q none.tif
 }
 
 @test "usage errors exit 2 and say what is wrong" {
@@ -298,18 +287,14 @@ $line"
 }
 
 @test "an output that cannot be written" {
-  run --separate-stderr "$BAKESLAB" convert a.tif -o none/out.tif
-  refused 1 "none/out.tif" "No such file"
+  refuses 1 "none/out.tif" "No such file" -- "$BAKESLAB" convert a.tif -o none/out.tif
   mkdir folder.tif
-  run --separate-stderr "$BAKESLAB" convert a.tif -o folder.tif
-  refused 1 "folder.tif" "not a regular file"
-  run --separate-stderr "$BAKESLAB" convert a.tif -o out.png
-  refused 1 "out.png" ".exr"
+  refuses 1 "folder.tif" "not a regular file" -- "$BAKESLAB" convert a.tif -o folder.tif
+  refuses 1 "out.png" ".exr" -- "$BAKESLAB" convert a.tif -o out.png
   [ "$(id -u)" -eq 0 ] && return
   mkdir locked
   chmod a-w locked
-  run --separate-stderr "$BAKESLAB" convert a.tif -o locked/out.tif
-  refused 1 "locked/out.tif" "Permission denied"
+  refuses 1 "locked/out.tif" "Permission denied" -- "$BAKESLAB" convert a.tif -o locked/out.tif
 }
 
 @test "a disk that fills: the old file stays, nothing else does" {
@@ -319,8 +304,8 @@ $line"
   "$BAKESLAB" convert a.tif -o noise.exr --uv 60x60 --st 16x16
   for name in out.tif out.exr; do
     echo old >disk/$name
-    run --separate-stderr "$BAKESLAB" convert noise.exr -o disk/$name --precision float
-    refused 1 "disk/$name" "No space left" || { umount disk; false; }
+    refuses 1 "disk/$name" "No space left" -- "$BAKESLAB" convert noise.exr -o disk/$name --precision float ||
+      { umount disk; false; }
     [ "$(cat disk/$name)" = old ]
     [ "$(find disk -type f | wc -l)" -eq 1 ] || { umount disk; false; }
     rm disk/$name

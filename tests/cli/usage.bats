@@ -3,6 +3,7 @@
 
 # shellcheck disable=SC2154 # run sets stderr and stderr_lines
 bats_require_minimum_version 1.5.0
+load ../needs
 
 @test "usage errors are one line, from argp and from getopt" {
   for arguments in "" "frobnicate" "help frobnicate" "info" "info a b" "info --nonsense a" "info -x a" \
@@ -46,7 +47,7 @@ bats_require_minimum_version 1.5.0
 }
 
 @test "bakeslab does not load renderslab's libraries" {
-  command -v ldd >/dev/null || skip "no ldd"
+  needs ldd
   for library in embree assimp png; do
     run ldd "$BAKESLAB"
     [ "$status" -eq 0 ]

@@ -119,8 +119,8 @@ picture() {
 }
 
 @test "a bar is drawn on a terminal only, and -q silences it" {
-  # script gives the program a terminal, where the machine has any to give.
-  script -qec true /dev/null </dev/null >/dev/null || skip "no script(1), or no terminals"
+  needs script # gives the program a terminal, where the machine has any to give
+  script -qec true /dev/null </dev/null >/dev/null || skip "this machine gives no terminals"
   line="$RENDERSLAB image occluder.obj --light 'letter_f.tif at=0,1,0' --size 40x30 --samples 2 --camera 'from=0.3,2,-2.2 at=0,0,0.1' -o a.exr"
   script -qec "$line" /dev/null </dev/null >with.txt
   grep -q 'image \[' with.txt

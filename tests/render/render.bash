@@ -1,5 +1,6 @@
 # render.bash - slabs, scenes and comparisons for the tests of renderslab's pictures.
 # shellcheck shell=bash
+load ../needs
 
 # letter_slab FILE.tif NAME U V JSON: U x V views of 16 x 16, each a letter F on a dim ground,
 # as bright as its number. JSON holds what the header has besides format, name and samples.
@@ -41,7 +42,8 @@ correlation() {
     awk '{ printf "%.6f", ($5 - $1*$2)/sqrt(($3 - $1*$1)*($4 - $2*$2)) }'
 }
 
-below() { awk -v x="$1" -v y="$2" 'BEGIN { exit !(x < y) }'; }
+# below X Y: both are numbers, and X is less. awk takes "-nan" and "" for less than anything.
+below() { awk -v x="$1" -v y="$2" 'BEGIN { exit !(x ~ /[0-9]/ && y ~ /[0-9]/ && x + 0 < y + 0) }'; }
 
 # povray_renders SCENE.pov OUT.exr WIDTH HEIGHT: its words go to OUT.exr.log.
 povray_renders() {

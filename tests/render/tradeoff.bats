@@ -64,7 +64,7 @@ column() {
 }
 
 @test "a plot, SVG or PNG" {
-  command -v gnuplot >/dev/null || skip "no gnuplot"
+  needs gnuplot
   cp occluder.obj "it's.obj"
   "$RENDERSLAB" tradeoff "it's.obj" --light 'letter_f.tif at=0,1,0' --size 16x12 --repeats 1 \
     --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' --finest 0.01 -o t.tsv --plot t.svg

@@ -14,7 +14,7 @@ setup() {
   mkdir "$BATS_TEST_TMPDIR/run"
   cd "$BATS_TEST_TMPDIR/run" || return
   ln -s "$BATS_FILE_TMPDIR"/* .
-  command -v xvfb-run >/dev/null || skip 'no xvfb-run'
+  needs xvfb-run xdotool
   if [ "${CONFIG-}" = sanitize ]; then export LD_PRELOAD=$BUILD/tests/faults/keep.so; fi
 }
 
@@ -84,7 +84,6 @@ press_keys() {
 }
 
 @test "a window, its keyboard and its mouse" {
-  command -v xdotool >/dev/null || skip 'no xdotool'
   timeout 120 xvfb-run -a -s '-screen 0 800x600x24' bash -c "$(declare -f press_keys); press_keys"
   [[ $(<told) != *from=0.3,2,-2.2* && $(<told) == *'--size 220x160'* ]]
   made_again "$(<told)"
