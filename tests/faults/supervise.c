@@ -82,40 +82,42 @@ static bool changes_files(pid_t pid, const struct seccomp_data *call) {
   return !is_elsewhere(pid, call->args[0]);
 }
 
-/* A message that carries a descriptor. */
-union carrier {
-  struct cmsghdr header;
-  char room[CMSG_SPACE(sizeof(int))];
+/* A message of a byte and a descriptor. */
+struct message {
+  char byte;
+  struct iovec some;
+  union {
+    struct cmsghdr header;
+    char room[CMSG_SPACE(sizeof(int))];
+  } carrier;
 };
 
+static struct msghdr header_of(struct message *message) {
+  *message = (struct message){.some = {&message->byte, 1}};
+  return (struct msghdr){.msg_iov = &message->some,
+                         .msg_iovlen = 1,
+                         .msg_control = message->carrier.room,
+                         .msg_controllen = sizeof message->carrier.room};
+}
+
 static void send_descriptor(int through, int descriptor) {
-  char byte = 0;
-  struct iovec some = {&byte, 1};
-  union carrier carrier = {{0}};
-  struct msghdr message = {.msg_iov = &some,
-                           .msg_iovlen = 1,
-                           .msg_control = carrier.room,
-                           .msg_controllen = sizeof carrier.room};
-  struct cmsghdr *header = CMSG_FIRSTHDR(&message);
+  struct message message;
+  struct msghdr sent = header_of(&message);
+  struct cmsghdr *header = CMSG_FIRSTHDR(&sent);
   header->cmsg_level = SOL_SOCKET;
   header->cmsg_type = SCM_RIGHTS;
   header->cmsg_len = CMSG_LEN(sizeof descriptor);
   memcpy(CMSG_DATA(header), &descriptor, sizeof descriptor);
-  sendmsg(through, &message, 0);
+  sendmsg(through, &sent, 0);
 }
 
 /* -1 where the other end was closed without sending any. */
 static int receive_descriptor(int through) {
-  char byte;
-  struct iovec some = {&byte, 1};
-  union carrier carrier = {{0}};
-  struct msghdr message = {.msg_iov = &some,
-                           .msg_iovlen = 1,
-                           .msg_control = carrier.room,
-                           .msg_controllen = sizeof carrier.room};
+  struct message message;
+  struct msghdr received = header_of(&message);
   int descriptor = -1;
-  if (recvmsg(through, &message, MSG_CMSG_CLOEXEC) != 1) return -1;
-  const struct cmsghdr *header = CMSG_FIRSTHDR(&message);
+  if (recvmsg(through, &received, MSG_CMSG_CLOEXEC) != 1) return -1;
+  const struct cmsghdr *header = CMSG_FIRSTHDR(&received);
   if (header) memcpy(&descriptor, CMSG_DATA(header), sizeof descriptor);
   return descriptor;
 }
