@@ -1,7 +1,8 @@
 # Tests: tests/*/test_*.c are cmocka programs, tests/**/*.bats run the program
 # as a user would. Other C files beside a test_*.c are linked with each test of
 # that folder. A test is named by its path without suffix: unit/test_slab.
-# Those in tests/render and tests/numerics link what render/ may use, all others what bakeslab/ is.
+# Those in tests/render and tests/numerics link what render/ may use, all others what bakeslab/ is;
+# all link tests/oracle, which shares no code with either.
 TEST_JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 TEST_TIMEOUT ?= 540
 T := %
@@ -10,6 +11,11 @@ TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TEST_HELPERS := $(filter-out $(TEST_SOURCES),$(wildcard tests/*.c tests/*/*.c))
 TEST_BATS := $(sort $(wildcard tests/*/*.bats tests/*/*/*.bats))
 TEST_NAMES := $(TEST_SOURCES:tests/%.c=%) $(TEST_BATS:tests/%.bats=%)
+ORACLE := $(B)/tests/oracle.a
+ORACLE_LIBS := -lgmp
+$(ORACLE): $(patsubst %,$(B)/%.o,$(basename $(wildcard tests/oracle/*.c tests/oracle/*.cc)))
+$(B)/tests/oracle/exact.o: EXTRA_CXXFLAGS = -Itests
+
 include tests/robust.mk
 # Long ones first, so that no core is idle at the end.
 TEST_LONG := $(filter bake/% chain/% house/%,$(TEST_NAMES))
@@ -35,11 +41,11 @@ test: $(TEST_LOGS) ## run the tests
 BENCH_FLOOR := $(B)/tests/bench/floor
 BENCH_SUM := $(B)/tests/bench/sum
 
-$(BENCH_FLOOR): $(B)/tests/bench/floor.o $(B)/tests/bench/lamp.o $(B)/libslab.a
+$(BENCH_FLOOR): $(B)/tests/bench/floor.o $(B)/tests/bench/lit.o $(B)/tests/bench/lamp.o $(ORACLE) $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
-$(BENCH_SUM): $(B)/tests/bench/sum.o $(B)/tests/bench/roofline.o $(B)/librender.a $(B)/libslab.a
+$(BENCH_SUM): $(B)/tests/bench/sum.o $(B)/tests/bench/roofline.o $(ORACLE) $(B)/librender.a $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(RENDER_LIBS) $(ALL_LDLIBS) -o $@
 
@@ -88,12 +94,12 @@ $(B)/tests/bench/roofline.o: EXTRA_CFLAGS += -ffp-contract=fast
 
 TEST_RENDERER := tests/render/% tests/numerics/%
 test_tested = $(B)/$(if $(filter $(TEST_RENDERER),$(1)),librender.a,libbake.a) $(B)/libslab.a
-# What else it is linked with: the oracles of tests/render serve tests/numerics, too.
+# What else it is linked with: tests/numerics uses the helpers of tests/render, too.
 test_helpers = $(filter tests/testing.c $(dir $(1))% $(if $(filter tests/numerics/%,$(1)),tests/render/%),$(TEST_HELPERS))
-test_libs = -lcmocka $(if $(filter $(TEST_RENDERER),$(1)),-lgmp $(RENDER_LIBS)) $(ALL_LDLIBS)
+test_libs = -lcmocka $(ORACLE_LIBS) $(if $(filter $(TEST_RENDERER),$(1)),$(RENDER_LIBS)) $(ALL_LDLIBS)
 
 define test_program
-$(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(call test_helpers,$(1))) $(call test_tested,$(1))
+$(B)/$(1:.c=): $(B)/$(1:.c=.o) $(patsubst %.c,$(B)/%.o,$(call test_helpers,$(1))) $(ORACLE) $(call test_tested,$(1))
 	$$(call say,LINK,$$@)
 	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ $$(call test_libs,$(1)) -o $$@
 

@@ -35,7 +35,7 @@ fuzz_all: $(FUZZ_NAMES:%=$(B)/tests/fuzz/fuzz_%)
 MUTANTS ?= 10000
 TEST_NAMES += faults/mutants
 
-$(B)/tests/faults/mutants: $(B)/tests/faults/mutants.o $(B)/libslab.a
+$(B)/tests/faults/mutants: $(B)/tests/faults/mutants.o $(ORACLE) $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 

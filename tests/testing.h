@@ -1,6 +1,8 @@
-/* testing.h - what tests in C share: cmocka, scratch files, numbers that are near each other. */
+/* testing.h - what tests in C share: cmocka, scratch files, comparisons of numbers. */
 #ifndef TESTING_H
 #define TESTING_H
+
+#include <math.h>
 
 /* cmocka.h needs these before it */
 #include <setjmp.h>
@@ -9,6 +11,9 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+
+/* A test of cmocka's that has no use for the state it is given. */
+#define TEST(name) static void name(__attribute__((unused)) void **unused)
 
 /* A path in a scratch directory of this process, which exists; valid until the next 8 calls. The
  * directory and what is in it goes away at exit. */
@@ -21,5 +26,11 @@ int scratch_entries(void);
  * fails. */
 #define assert_near(a, b, tolerance) assert_near_at(a, b, tolerance, __FILE__, __LINE__)
 void assert_near_at(double a, double b, double tolerance, const char *file, int line);
+
+/* The larger one, and NaN where one is: fmax would drop it. The worst of some errors is then at
+ * most what is allowed only if each of them is. */
+static inline double larger(double a, double b) {
+  return a > b || isnan(a) ? a : b;
+}
 
 #endif

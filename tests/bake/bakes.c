@@ -176,10 +176,15 @@ static double passed_pane(const struct slab *slab, double depth, int axis, int i
   return passed(limits[0], at, wide, narrow) - passed(limits[1], at, wide, narrow);
 }
 
-double bakes_pane(const struct slab *slab, double depth, const double rectangle[4], int i, int j,
-                  int k, int l) {
-  return passed_pane(slab, depth, SLAB_U, i, k, rectangle) *
-         passed_pane(slab, depth, SLAB_V, j, l, rectangle + 2);
+void bakes_sample(const struct slab *slab, size_t pixel, int at[SLAB_AXES], double abst[4]) {
+  slab_locate(slab, pixel, at);
+  for (int axis = 0; axis < SLAB_AXES; ++axis) abst[axis] = slab_position(slab, axis, at[axis]);
+}
+
+double bakes_pane(const struct slab *slab, double depth, const double rectangle[4],
+                  const int at[SLAB_AXES]) {
+  return passed_pane(slab, depth, SLAB_U, at[SLAB_U], at[SLAB_S], rectangle) *
+         passed_pane(slab, depth, SLAB_V, at[SLAB_V], at[SLAB_T], rectangle + 2);
 }
 
 /* ---- Bakes ---- */
@@ -248,9 +253,4 @@ double bakes_provenance(const struct slab *slab, const char *key, const char *in
   double number = json_number_value(value);
   json_decref(page);
   return number;
-}
-
-double bakes_random(uint32_t *seed) {
-  *seed = *seed * 1664525u + 1013904223u;
-  return (*seed >> 8) / 16777216.0;
 }

@@ -46,14 +46,17 @@ void bakes_waves(const struct bakes_frame *frame, double radiance, const double 
 void bakes_slope(const struct bakes_frame *frame, double depth, const double abst[4],
                  double rgb[3]);
 
+/* A pixel of a slab's raster: which sample it is, and of which ray (a, b, s, t). */
+void bakes_sample(const struct slab *slab, size_t pixel, int at[SLAB_AXES], double abst[4]);
+
 /* Mean of a Pane of radiance 1 over the 4D cell of a sample. */
-double bakes_pane(const struct slab *slab, double depth, const double rectangle[4], int i, int j,
-                  int k, int l);
+double bakes_pane(const struct slab *slab, double depth, const double rectangle[4],
+                  const int at[SLAB_AXES]);
 
 /* ---- Bakes ---- */
 
 /* Starts `bakeslab bake LAMP.pov -o OUTPUT` with further options beside others that
- * still run; it talks to OUTPUT.log. */
+ * still run; its output goes to OUTPUT.log. */
 void bakes_start(const char *lamp, const char *output, const char *options);
 /* Waits for all; fails the test where one failed. */
 void bakes_wait(void);
@@ -63,8 +66,5 @@ struct slab bakes_load(const char *output, int page);
 
 /* A number of the page's provenance, such as "noise" "flux". `inner` may be NULL. */
 double bakes_provenance(const struct slab *slab, const char *key, const char *inner);
-
-/* A number in [0, 1) from a seed; the same on every machine. */
-double bakes_random(uint32_t *seed);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "bakes.h"
 
-/* POV-Ray's own light, shadows, a mirror and a filter: whatever rounding may touch. */
+/* POV-Ray's own light, shadows, a mirror and a filter: all that rounding may change. */
 static void busy_lamp(const char *name, const char *slab) {
   bakes_lamp(name);
   bakes_lamp_add(name, "%s\n", slab);
@@ -20,7 +20,7 @@ static void busy_lamp(const char *name, const char *slab) {
 
 static const char infinite_slab[] =
     "Canned_Slab(<0, 0, 0>, <6, 0, 0>, <0, 0, 4>, <0, -1, 0>, <-1.1, 0.9, -0.7, 0.8>, 0)";
-/* Down from below, at a plane of the scene, and with u x v = -n. */
+/* A finite st plane, and u x v = -n. */
 static const char finite_slab[] =
     "Canned_Slab(<0, 0, 0>, <6, 0, 0>, <0, 0, -4>, <0, -1, 0>, <-5, 4, -6, 3>, 8)";
 
@@ -90,22 +90,20 @@ static void assert_same(const char *one, const char *other, int pages) {
       black += a.rgb[n] == 0;
     }
     if (different) fail_msg("%s, %s: %zu of %zu numbers differ", one, other, different, 3 * count);
-    assert_true(black < 2 * count); /* there is something to differ in */
+    assert_true(black < 2 * count); /* enough is lit */
     slab_free(&a);
     slab_free(&b);
   }
 }
 
-static void test_cameras(void **state) {
-  (void)state;
+TEST(test_cameras) {
   assert_same("mesh.exr", "perspective.exr", 1);
   assert_same("mesh.exr", "transposed.exr", 1);
   assert_same("centre-mesh.exr", "centre-perspective.exr", 1);
   assert_same("near-mesh.exr", "near-perspective.exr", 2);
 }
 
-static void test_adaptive_cameras(void **state) {
-  (void)state;
+TEST(test_adaptive_cameras) {
   struct slab slab = bakes_load("adaptive-mesh.exr", 0);
   double rays = bakes_provenance(&slab, "rays", NULL);
   assert_true(rays > 4 && rays <= 6); /* some tiles got more, not all */
@@ -113,13 +111,11 @@ static void test_adaptive_cameras(void **state) {
   assert_same("adaptive-mesh.exr", "adaptive-perspective.exr", 1);
 }
 
-static void test_jobs(void **state) {
-  (void)state;
+TEST(test_jobs) {
   assert_same("jobs1.exr", "jobs3.exr", 1);
 }
 
-static void test_shards(void **state) {
-  (void)state;
+TEST(test_shards) {
   assert_same("jobs1.exr", "shards.exr", 1);
   /* The run without --shard had the third part left, not more. */
   assert_int_equal(
@@ -127,8 +123,7 @@ static void test_shards(void **state) {
   assert_int_equal(bakes_run("! test -e shards.exr.partial"), 0);
 }
 
-static void test_radiosity(void **state) {
-  (void)state;
+TEST(test_radiosity) {
   assert_same("gather1.exr", "gather2.exr", 1);
   struct slab with = bakes_load("gather1.exr", 0), without = bakes_load("bare.exr", 0);
   double more[3], less[3];

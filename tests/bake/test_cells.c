@@ -76,25 +76,22 @@ static int bake_all(void **state) {
  * be with one random ray a sample. */
 static double pane_error(const char *output, const double rectangle[4], double *random) {
   struct slab slab = bakes_load(output, 0);
-  const int *n = slab.samples;
-  double sum = 0, variance = 0, count = (double)slab_sample_count(&slab);
-  for (int j = 0; j < n[1]; ++j)
-    for (int i = 0; i < n[0]; ++i)
-      for (int l = 0; l < n[3]; ++l)
-        for (int k = 0; k < n[2]; ++k) {
-          double mean = bakes_pane(&slab, depth, rectangle, i, j, k, l);
-          double difference = (double)slab_at(&slab, i, j, k, l)[0] - mean;
-          sum += difference * difference;
-          variance += mean * (1 - mean);
-        }
+  double sum = 0, variance = 0, abst[4], count = (double)slab_sample_count(&slab);
+  int at[SLAB_AXES];
+  for (size_t p = 0; p < slab_sample_count(&slab); ++p) {
+    bakes_sample(&slab, p, at, abst);
+    double mean = bakes_pane(&slab, depth, rectangle, at);
+    double difference = (double)slab.rgb[3 * p] - mean;
+    sum += difference * difference;
+    variance += mean * (1 - mean);
+  }
   slab_free(&slab);
   if (random) *random = sqrt(variance / count);
   return sqrt(sum / count);
 }
 
 /* The mean is that of the cell, and K rays come nearer to it than K random ones would. */
-static void test_hard_edge(void **state) {
-  (void)state;
+TEST(test_hard_edge) {
   static const int rays[] = {2, 4, 16, 64, 256};
   double before = 1, random;
   for (int n = 0; n < 5; ++n) {
@@ -109,23 +106,17 @@ static void test_hard_edge(void **state) {
 }
 
 /* --centre: lit or not, as the ray through the middle of the cell is. */
-static void test_centre(void **state) {
-  (void)state;
+TEST(test_centre) {
   struct slab slab = bakes_load("points.exr", 0);
-  const int *n = slab.samples;
-  int lit = 0;
-  for (int j = 0; j < n[1]; ++j)
-    for (int i = 0; i < n[0]; ++i)
-      for (int l = 0; l < n[3]; ++l)
-        for (int k = 0; k < n[2]; ++k) {
-          const double abst[4] = {slab_position(&slab, SLAB_U, i), slab_position(&slab, SLAB_V, j),
-                                  slab_position(&slab, SLAB_S, k), slab_position(&slab, SLAB_T, l)};
-          double x, y;
-          bakes_point(&frame, abst, depth, &x, &y);
-          bool inside = x > pane[0] && x < pane[1] && y > pane[2] && y < pane[3];
-          lit += inside;
-          assert_true(slab_at(&slab, i, j, k, l)[0] == (inside ? 1 : 0));
-        }
+  int lit = 0, at[SLAB_AXES];
+  for (size_t p = 0; p < slab_sample_count(&slab); ++p) {
+    double abst[4], x, y;
+    bakes_sample(&slab, p, at, abst);
+    bakes_point(&frame, abst, depth, &x, &y);
+    bool inside = x > pane[0] && x < pane[1] && y > pane[2] && y < pane[3];
+    lit += inside;
+    assert_true(slab.rgb[3 * p] == (inside ? 1 : 0));
+  }
   assert_true(lit > 5);
   assert_non_null(strstr(slab.json, "\"samples_are\": \"points\""));
   slab_free(&slab);
@@ -138,26 +129,20 @@ static void test_centre(void **state) {
  * opposite rays find it: what remains is the rounding of POV-Ray's half floats. */
 static void check_slope(const char *output, const struct bakes_frame *where) {
   struct slab slab = bakes_load(output, 0);
-  const int *n = slab.samples;
-  double worst = 0;
-  for (int j = 0; j < n[1]; ++j)
-    for (int i = 0; i < n[0]; ++i)
-      for (int l = 0; l < n[3]; ++l)
-        for (int k = 0; k < n[2]; ++k) {
-          const double abst[4] = {slab_position(&slab, SLAB_U, i), slab_position(&slab, SLAB_V, j),
-                                  slab_position(&slab, SLAB_S, k), slab_position(&slab, SLAB_T, l)};
-          double expected[3];
-          bakes_slope(where, 1.5, abst, expected);
-          for (int c = 0; c < 3; ++c)
-            worst = fmax(worst, fabs((double)slab_at(&slab, i, j, k, l)[c] / expected[c] - 1));
-        }
+  double worst = 0, abst[4], expected[3];
+  int at[SLAB_AXES];
+  for (size_t p = 0; p < slab_sample_count(&slab); ++p) {
+    bakes_sample(&slab, p, at, abst);
+    bakes_slope(where, 1.5, abst, expected);
+    for (size_t c = 0; c < 3; ++c)
+      worst = larger(worst, fabs((double)slab.rgb[3 * p + c] / expected[c] - 1));
+  }
   print_message("# %-12s %.2g\n", output, worst);
   if (!(worst <= 0x1p-10)) fail_msg("%s: %g", output, worst);
   slab_free(&slab);
 }
 
-static void test_linear(void **state) {
-  (void)state;
+TEST(test_linear) {
   check_slope("slope1.exr", &frame);
   check_slope("slope2.exr", &frame);
   check_slope("slope6.exr", &frame);
@@ -175,21 +160,19 @@ static double red_flux(const struct slab *slab) {
 /* The flux that the right samples would have, and theirs. */
 static double flux_error(const char *output, const double rectangle[4]) {
   struct slab slab = bakes_load(output, 0);
-  const int *n = slab.samples;
-  double found = red_flux(&slab);
-  for (int j = 0; j < n[1]; ++j)
-    for (int i = 0; i < n[0]; ++i)
-      for (int l = 0; l < n[3]; ++l)
-        for (int k = 0; k < n[2]; ++k)
-          slab_at(&slab, i, j, k, l)[0] = (float)bakes_pane(&slab, depth, rectangle, i, j, k, l);
+  double found = red_flux(&slab), abst[4];
+  int at[SLAB_AXES];
+  for (size_t p = 0; p < slab_sample_count(&slab); ++p) {
+    bakes_sample(&slab, p, at, abst);
+    slab.rgb[3 * p] = (float)bakes_pane(&slab, depth, rectangle, at);
+  }
   double right = red_flux(&slab);
   slab_free(&slab);
   return found / right - 1;
 }
 
 /* On a mostly black lamp, no more rays and less error. */
-static void test_adaptive(void **state) {
-  (void)state;
+TEST(test_adaptive) {
   double uniform = 0, adaptive = 0;
   for (int n = 0; n < PANES; ++n) {
     char name[64];
@@ -210,8 +193,7 @@ static void test_adaptive(void **state) {
 }
 
 /* Stated noise is an upper estimate, within a factor, of the true error. */
-static void test_noise(void **state) {
-  (void)state;
+TEST(test_noise) {
   double sum_flux = 0, sum_stated = 0;
   for (int n = 0; n < 2 * PANES; ++n) {
     char name[64];
@@ -233,8 +215,7 @@ static void test_noise(void **state) {
 }
 
 /* All rays see the same: no noise, in samples or in flux. */
-static void test_no_noise(void **state) {
-  (void)state;
+TEST(test_no_noise) {
   struct slab slab = bakes_load("flat.exr", 0);
   assert_true(bakes_provenance(&slab, "noise", "sample") < 1e-7);
   assert_true(bakes_provenance(&slab, "noise", "flux") < 1e-7);

@@ -155,8 +155,7 @@ static double traced_flux(int rays) {
   return sum / rays * 4 * slope * slope * 4 * radius * radius * metres * metres;
 }
 
-static void test_flux(void **state) {
-  (void)state;
+TEST(test_flux) {
   double half = traced_flux(1 << 20), traced = traced_flux(1 << 21), rgb[3];
   assert_true(fabs(half / traced - 1) < 0.001);
   struct slab slab = bakes_load("lamp.exr", 0);
@@ -169,8 +168,7 @@ static void test_flux(void **state) {
 }
 
 /* A lamp 20 units wide through the gain's filter. */
-static void test_gain(void **state) {
-  (void)state;
+TEST(test_gain) {
   struct slab plain = bakes_load("plain.exr", 0), dim = bakes_load("dim.exr", 0);
   double expected[3], found[3];
   slab_flux(&plain, expected);

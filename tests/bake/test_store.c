@@ -15,7 +15,8 @@
 
 enum { PROCESSES = 4, TURNS = 500 };
 
-/* In place of the C library's: between opening a lock and taking it, others do much. */
+/* In place of the C library's: waits first, so that other processes have time to act between the
+ * opening of a lock and its taking. */
 int flock(int file, int operation) {
   usleep((useconds_t)(random() % 300));
   return (int)syscall(SYS_flock, file, operation);
@@ -46,8 +47,7 @@ static void come_and_go(const char *output, struct tally *tally) {
   }
 }
 
-static void test_one_holder(void **state) {
-  (void)state;
+TEST(test_one_holder) {
   char folder[] = "/tmp/store.XXXXXX", output[64];
   struct tally *tally =
       mmap(NULL, sizeof *tally, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);

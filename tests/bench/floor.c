@@ -20,7 +20,6 @@
  * error of the samples over their mean, in %. The floor lies 60 units below the aperture and
  * is 160 wide, of 64 x 64 receivers. */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,9 +28,11 @@
 #include "file/slab_file.h"
 #include "file/slab_json.h"
 #include "lamp.h"
+#include "lit.h"
+#include "oracle/random.h"
 #include "slab/slab_accuracy.h"
 
-enum { SIDE = 64, POINTS = 600, CELL_POINTS = 8, FLUX_RAYS = 1 << 24 };
+enum { SIDE = 64, POINTS = 600, FLUX_RAYS = 1 << 24 };
 static double below = 60, width = 160; /* `own` asks for others */
 
 static double receiver(int n) {
@@ -97,11 +98,6 @@ static void fill_floor(double *irradiance) {
     }
 }
 
-static double random_number(uint64_t *state) {
-  *state = *state * 6364136223846793005u + 1442695040888963407u;
-  return (double)(*state >> 11) * 0x1p-53;
-}
-
 static double cell_mean(const double low[4], const double size[4], int rays, uint64_t *seed) {
   double shift[4], x[4], sum = 0;
   for (int c = 0; c < 4; ++c) shift[c] = random_number(seed);
@@ -165,77 +161,13 @@ static void make_truth(const char *path, int uv, int st, int rays) {
 
 /* ---- A slab ---- */
 
-/* Green samples, slopes of one position together: [j][l][i][k] as the raster has them. */
-struct light {
-  int uv, st;
-  const float *sample;
-};
-
-/* Where a coordinate lies between the centres of `count` cells: constant in the outer
- * half cells. */
-struct place {
-  int first, second;
-  float part; /* of the second */
-};
-
-static struct place between(double x, double low, double high, int count) {
-  double at = (x - low) / (high - low) * count - 0.5;
-  at = fmin(fmax(at, 0), count - 1);
-  int first = (int)at;
-  return (struct place){first, first + 1 < count ? first + 1 : first, (float)(at - first)};
-}
-
-static float mix(float one, float two, float part) {
-  return one + part * (two - one);
-}
-
-/* Irradiance at (x, z): midpoints of a grid of CELL_POINTS a cell and axis. Columns and
- * rows of the raster are interpolated each by itself. */
-static double lit(const struct light *light, double x, double z) {
-  enum { MOST = 1024 };
-  struct place uv[2][MOST], st[2][MOST];
-  double slope[2][MOST];
-  int points = light->uv * CELL_POINTS, side = light->uv * light->st;
-  double step = lamp_aperture / points, sum = 0;
-  for (int n = 0; n < points; ++n)
-    for (int axis = 0; axis < 2; ++axis) {
-      double a = (n + 0.5) * step - lamp_aperture / 2;
-      slope[axis][n] = ((axis ? z : x) - a) / below;
-      uv[axis][n] = between(a, -lamp_aperture / 2, lamp_aperture / 2, light->uv);
-      st[axis][n] = between(slope[axis][n], -lamp_slope, lamp_slope, light->st);
-    }
-  for (int j = 0; j < points; ++j) {
-    if (fabs(slope[1][j]) > lamp_slope) continue;
-    const float *rows[4];
-    const int views[2] = {uv[1][j].first, uv[1][j].second},
-              lines[2] = {st[1][j].first, st[1][j].second};
-    for (int n = 0; n < 4; ++n)
-      rows[n] = light->sample + (size_t)(views[n / 2] * light->st + lines[n % 2]) * (size_t)side;
-    for (int i = 0; i < points; ++i) {
-      if (fabs(slope[0][i]) > lamp_slope) continue;
-      float corner[4];
-      for (int n = 0; n < 4; ++n) {
-        int column = (n / 2 ? uv[0][i].second : uv[0][i].first) * light->st +
-                     (n % 2 ? st[0][i].second : st[0][i].first);
-        corner[n] = mix(mix(rows[0][column], rows[1][column], st[1][j].part),
-                        mix(rows[2][column], rows[3][column], st[1][j].part), uv[1][j].part);
-      }
-      double radiance = (double)mix(mix(corner[0], corner[1], st[0][i].part),
-                                    mix(corner[2], corner[3], st[0][i].part), uv[0][i].part);
-      double r = 1 + slope[0][i] * slope[0][i] + slope[1][j] * slope[1][j];
-      sum += radiance / (r * r);
-    }
-  }
-  return sum * step * step / (below * below);
-}
-
 /* Prints floor, flux and samples; `flux` in lamp units, 0 where it isn't known. */
-static void report(const struct truth *truth, const struct light *light, double flux) {
+static void report(const struct truth *truth, const struct lit_samples *light, double flux) {
   double square = 0, mean = 0;
   for (int j = 0; j < SIDE; ++j)
     for (int i = 0; i < SIDE; ++i) {
       double e = truth->floor[j * SIDE + i];
-      double error = lit(light, receiver(i), receiver(j)) - e;
+      double error = lit_irradiance(light, receiver(i), receiver(j), below) - e;
       square += error * error;
       mean += e;
     }
@@ -255,7 +187,7 @@ static void report(const struct truth *truth, const struct light *light, double 
 }
 
 /* As bakeslab would write it: grey. */
-static void write_means(const char *name, const struct light *light) {
+static void write_means(const char *name, const struct lit_samples *light) {
   struct slab slab = slab_default();
   struct error error;
   const int samples[SLAB_AXES] = {light->uv, light->uv, light->st, light->st};
@@ -273,12 +205,11 @@ static void write_means(const char *name, const struct light *light) {
 static void write_lobe(const char *name, int uv, int st) {
   double mean[1024] = {0}, step = 2 * lamp_slope / st, unit = lobe_width * sqrt(2);
   float *sample = room((size_t)uv * (size_t)uv * (size_t)st * (size_t)st, sizeof *sample);
-  struct light light = {uv, st, sample};
+  struct lit_samples light = {uv, st, sample};
   if (st > 1024) die("too many samples");
   for (int k = 0; k < st; ++k) {
     double low = k * step - lamp_slope;
-    mean[k] = unit * 0.5 * sqrt(3.14159265358979323846) / step *
-              (erf((low + step) / unit) - erf(low / unit));
+    mean[k] = unit * 0.5 * sqrt(M_PI) / step * (erf((low + step) / unit) - erf(low / unit));
   }
   for (int row = 0; row < uv * st; ++row)
     for (int column = 0; column < uv * st; ++column)
@@ -292,7 +223,7 @@ static void ideal(const char *path, const char *name) {
   size_t count = mean_count(&truth);
   float *sample = room(count, sizeof *sample);
   for (size_t n = 0; n < count; ++n) sample[n] = 0.5f * (truth.means[0][n] + truth.means[1][n]);
-  struct light light = {truth.uv, truth.st, sample};
+  struct lit_samples light = {truth.uv, truth.st, sample};
   report(&truth, &light, 0);
   if (name) write_means(name, &light);
 }
@@ -305,10 +236,10 @@ static float *green(const struct slab *slab) {
 }
 
 /* RMS of a slab's error over the RMS of the truth. */
-static double relative_error(const struct light *light, const double *truth) {
+static double relative_error(const struct lit_samples *light, const double *truth) {
   double wrong = 0, all = 0;
   for (int n = 0; n < SIDE * SIDE; ++n) {
-    double error = lit(light, receiver(n % SIDE), receiver(n / SIDE)) - truth[n];
+    double error = lit_irradiance(light, receiver(n % SIDE), receiver(n / SIDE), below) - truth[n];
     wrong += error * error;
     all += truth[n] * truth[n];
   }
@@ -332,7 +263,7 @@ static void own(double apertures, char **names) {
         slab_accuracy_estimate(slabs, &sampling, 1, &below, &floor, &error) != RESULT_OK)
       die(error.text);
     float *sample = green(slabs);
-    struct light light = {slabs->samples[SLAB_U], slabs->samples[SLAB_S], sample};
+    struct lit_samples light = {slabs->samples[SLAB_U], slabs->samples[SLAB_S], sample};
     printf("%.3g %.3g %.3g %.3g %.3g\n", 100 * floor.all, 100 * floor.st, 100 * floor.uv,
            100 * floor.noise, 100 * relative_error(&light, truth));
     free(sample);
@@ -351,7 +282,7 @@ static void compare(const char *path, const char *name) {
   if (pages != 1 || n[SLAB_U] != truth.uv || n[SLAB_V] != truth.uv || n[SLAB_S] != truth.st ||
       n[SLAB_T] != truth.st)
     die("the slab has other samples than the truth");
-  struct light light = {truth.uv, truth.st, green(slabs)};
+  struct lit_samples light = {truth.uv, truth.st, green(slabs)};
   double flux[3];
   slab_flux(slabs, flux);
   report(&truth, &light, flux[1]);
@@ -369,7 +300,7 @@ static void seen(const char *name, double irradiance[SIDE * SIDE]) {
     for (int y = n / SIDE * block; y < (n / SIDE + 1) * block; ++y)
       for (int x = n % SIDE * block; x < (n % SIDE + 1) * block; ++x)
         sum += (double)shown.rgb[3 * (y * shown.width + x)];
-    irradiance[n] = sum * 3.14159265358979323846 / (block * block);
+    irradiance[n] = sum * M_PI / (block * block);
   }
   picture_free(&shown);
 }

@@ -23,7 +23,7 @@ double roofline_seconds(void) {
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Sums nobody asks for, so that the work is done. */
+/* Results go here, so that the compiler leaves the work in. */
 static volatile float sink;
 
 WIDEST

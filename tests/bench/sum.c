@@ -21,6 +21,7 @@
 #include "base/vector.h"
 #include "gather/gather.h"
 #include "microlight/seen_page.h"
+#include "oracle/random.h"
 #include "roofline.h"
 
 enum { SIDE = 64, TILE = 8, COUNT = SIDE * SIDE, TOGETHER = TILE * TILE, LINE = 64 };
@@ -35,11 +36,6 @@ static void hold(enum result result, const struct error *error) {
   if (result != RESULT_OK) die(error->text);
 }
 
-static double uniform(uint64_t *seed) {
-  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-  return (double)(*seed >> 11) * 0x1p-53;
-}
-
 /* ---- A light ---- */
 
 static void fill(struct slab *slab) {
@@ -50,7 +46,7 @@ static void fill(struct slab *slab) {
     slab_locate(slab, p, at);
     double s = slab_position(slab, SLAB_S, at[SLAB_S]), t = slab_position(slab, SLAB_T, at[SLAB_T]);
     double lobe = exp(-s * s - t * t);
-    for (int c = 0; c < 3; ++c) slab->rgb[3 * p + (size_t)c] = (float)(uniform(&seed) + lobe);
+    for (int c = 0; c < 3; ++c) slab->rgb[3 * p + (size_t)c] = (float)(random_number(&seed) + lobe);
   }
 }
 
@@ -107,12 +103,12 @@ static void make_plane(struct receiver receivers[COUNT]) {
 static void make_scattered(struct receiver receivers[COUNT]) {
   uint64_t seed = 2;
   for (int k = 0; k < COUNT; ++k) {
-    double z = nearest * pow(farthest / nearest, uniform(&seed)), position[3], normal[3];
+    double z = random_log(&seed, nearest, farthest), position[3], normal[3];
     for (int c = 0; c < 2; ++c)
-      position[c] = uniform(&seed) - 0.5 + z * window * (2 * uniform(&seed) - 1);
+      position[c] = random_between(&seed, -0.5, 0.5) + z * window * random_between(&seed, -1, 1);
     position[2] = z;
     for (int c = 0; c < 3; ++c) normal[c] = -position[c] / vector_length(position);
-    for (int c = 0; c < 3; ++c) normal[c] += uniform(&seed) - 0.5;
+    for (int c = 0; c < 3; ++c) normal[c] += random_between(&seed, -0.5, 0.5);
     set_receiver(&receivers[k], k, position, normal);
   }
 }

@@ -1,14 +1,13 @@
 /* chain.c - see chain.h. */
 #include "chain.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* ---- Vectors and random numbers ---- */
+/* ---- Vectors ---- */
 double chain_dot(const double x[3], const double y[3]) {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
@@ -17,53 +16,23 @@ double chain_length(const double x[3]) {
   return sqrt(chain_dot(x, x));
 }
 
-/* SplitMix64 */
-double chain_random(uint64_t *state) {
-  uint64_t z = *state += 0x9e3779b97f4a7c15u;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-  return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
-
-void chain_frame(uint64_t *state, double frame[3][3]) {
-  for (int k = 0; k < 3; ++k) {
-    double size;
-    do {
-      for (int c = 0; c < 3; ++c) frame[k][c] = 2 * chain_random(state) - 1;
-      for (int m = 0; m < k; ++m) {
-        double share = chain_dot(frame[k], frame[m]);
-        for (int c = 0; c < 3; ++c) frame[k][c] -= share * frame[m][c];
-      }
-      size = chain_length(frame[k]);
-    } while (size < 0.1);
-    for (int c = 0; c < 3; ++c) frame[k][c] /= size;
-  }
-}
-
-double chain_handedness(const double x[3], const double y[3], const double z[3]) {
-  return (x[1] * y[2] - x[2] * y[1]) * z[0] + (x[2] * y[0] - x[0] * y[2]) * z[1] +
-         (x[0] * y[1] - x[1] * y[0]) * z[2];
-}
-
 /* ---- Slabs ---- */
 void chain_fill(struct slab *slab, uint64_t *state) {
   assert_int_equal(slab_alloc(slab, NULL), RESULT_OK);
-  size_t values = (size_t)slab->samples[0] * (size_t)slab->samples[1] * (size_t)slab->samples[2] *
-                  (size_t)slab->samples[3] * 3;
-  for (size_t k = 0; k < values; ++k) slab->rgb[k] = (float)pow(10, 3 * chain_random(state) - 1);
+  for (size_t k = 0; k < 3 * slab_sample_count(slab); ++k)
+    slab->rgb[k] = (float)random_log(state, 0.1, 100);
 }
 
 struct slab chain_slab(const int samples[4], const double edges[2], const double window[4],
                        double distance, int mirrored, uint64_t seed) {
   struct slab slab = slab_default();
   double frame[3][3];
-  chain_frame(&seed, frame);
-  int is_mirrored = chain_handedness(frame[0], frame[1], frame[2]) < 0;
+  random_frame(&seed, mirrored ? -1 : 1, frame);
   for (int c = 0; c < 3; ++c) {
     slab.u[c] = edges[0] * frame[0][c];
     slab.v[c] = edges[1] * frame[1][c];
-    slab.normal[c] = is_mirrored == mirrored ? frame[2][c] : -frame[2][c];
-    slab.center[c] = 0.4 * chain_random(&seed) - 0.2;
+    slab.normal[c] = frame[2][c];
+    slab.center[c] = random_between(&seed, -0.2, 0.2);
   }
   memcpy(slab.samples, samples, sizeof slab.samples);
   memcpy(slab.st_window, window, sizeof slab.st_window);
@@ -71,11 +40,6 @@ struct slab chain_slab(const int samples[4], const double edges[2], const double
   snprintf(slab.name, sizeof slab.name, "test_lamp");
   chain_fill(&slab, &seed);
   return slab;
-}
-
-float *chain_sample(const struct slab *slab, int i, int j, int k, int l) {
-  const int *n = slab->samples;
-  return slab->rgb + 3 * ((size_t)(j * n[3] + l) * (size_t)(n[0] * n[2]) + (size_t)(i * n[2] + k));
 }
 
 struct slab chain_means(const struct slab *from, int nu, int nv) {
@@ -90,51 +54,35 @@ struct slab chain_means(const struct slab *from, int nu, int nv) {
       for (int l = 0; l < to.samples[3]; ++l)
         for (int k = 0; k < to.samples[2]; ++k) /* on a grid that refines both */
           for (int c = 0; c < 3; ++c)
-            (chain_sample(&to, i / from->samples[0], j / from->samples[1], k, l))[c] +=
-                chain_sample(from, i / nu, j / nv, k, l)[c] /
+            (oracle_sample(&to, i / from->samples[0], j / from->samples[1], k, l))[c] +=
+                oracle_sample(from, i / nu, j / nv, k, l)[c] /
                 (float)(from->samples[0] * from->samples[1]);
   return to;
 }
 
 /* ---- The direct sum ---- */
-const double chain_identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+struct chain_lamp chain_lamp_of(const struct slab *pages, int count, double scale) {
+  return (struct chain_lamp){pages, count, scale, 1, {1, 0, 0, 0, 1, 0, 0, 0, 1}, 0};
+}
+
+void chain_move(const double m[12], double scale, const double x[3], double origin, double out[3]) {
+  for (int c = 0; c < 3; ++c)
+    out[c] = scale * (x[0] * m[c] + x[1] * m[3 + c] + x[2] * m[6 + c]) + origin * m[9 + c];
+}
 
 static void turn(const struct chain_lamp *lamp, const double x[3], double turned[3]) {
-  for (int c = 0; c < 3; ++c)
-    turned[c] = x[0] * lamp->matrix[c] + x[1] * lamp->matrix[3 + c] + x[2] * lamp->matrix[6 + c];
+  chain_move(lamp->matrix, 1, x, 0, turned);
 }
 
-static int taps(double x, double low, double high, int n, int index[2], double weight[2]) {
-  if (x < low || x > high) return 0;
-  double place = fmin(fmax((x - low) / (high - low) * n - 0.5, 0), n - 1);
-  index[0] = (int)floor(place);
-  index[1] = index[0] + 1 < n ? index[0] + 1 : n - 1;
-  weight[1] = place - index[0];
-  weight[0] = 1 - weight[1];
-  return 1;
-}
-
-static void view(const struct slab *slab, int i, int j, double s, double t, double rgb[3]) {
-  int k[2], l[2];
-  double ws[2], wt[2];
-  const double *w = slab->st_window;
-  rgb[0] = rgb[1] = rgb[2] = 0;
-  if (!taps(s, w[0], w[1], slab->samples[2], k, ws)) return;
-  if (!taps(t, w[2], w[3], slab->samples[3], l, wt)) return;
-  for (int m = 0; m < 4; ++m)
-    for (int c = 0; c < 3; ++c)
-      rgb[c] += ws[m & 1] * wt[m >> 1] * chain_sample(slab, i, j, k[m & 1], l[m >> 1])[c];
-}
-
-/* Does the lamp's box stand on the straight way between two points? */
+/* Whether the lamp's case blocks the segment between two points. */
 static int shades(const struct chain_lamp *lamp, const double from[3], const double to[3]) {
   if (lamp->case_height <= 0) return 0;
   const struct slab *slab = &lamp->pages[0];
   const double *axes[3] = {slab->u, slab->v, slab->normal};
   double enter = 0, leave = 1, middle[3], relative[3], way[3];
-  turn(lamp, slab->center, middle);
+  chain_move(lamp->matrix, lamp->scale, slab->center, 1, middle);
   for (int c = 0; c < 3; ++c) {
-    relative[c] = from[c] - lamp->scale * middle[c] - lamp->matrix[9 + c];
+    relative[c] = from[c] - middle[c];
     way[c] = to[c] - from[c];
   }
   for (int k = 0; k < 3; ++k) {
@@ -169,22 +117,20 @@ static void add_page(const struct chain_lamp *lamps, int count, const struct cha
     for (int i = 0; i < slab->samples[0]; ++i) {
       double a = ((i + 0.5) / slab->samples[0] - 0.5) * lu;
       double b = ((j + 0.5) / slab->samples[1] - 0.5) * lv;
-      double place[3], away[3], radiance[3];
+      double point[3], place[3], away[3];
+      long double radiance[3];
       for (int c = 0; c < 3; ++c)
-        place[c] = slab->center[c] + a * slab->u[c] / lu + b * slab->v[c] / lv;
-      turn(lamp, place, away);
-      for (int c = 0; c < 3; ++c) {
-        place[c] = lamp->scale * away[c] + lamp->matrix[9 + c];
-        away[c] = at[c] - place[c];
-      }
+        point[c] = slab->center[c] + a * slab->u[c] / lu + b * slab->v[c] / lv;
+      chain_move(lamp->matrix, lamp->scale, point, 1, place);
+      for (int c = 0; c < 3; ++c) away[c] = at[c] - place[c];
       double height = chain_dot(away, n), facing = -chain_dot(away, normal);
       if (height <= 0 || facing <= 0 || shaded(lamps, count, lamp, place, at)) continue;
-      view(slab, i, j, chain_dot(away, u) / lu / height + a / slab->st_distance,
-           chain_dot(away, v) / lv / height + b / slab->st_distance, radiance);
+      oracle_lookup_view(slab, i, j, chain_dot(away, u) / lu / height + a / slab->st_distance,
+                         chain_dot(away, v) / lv / height + b / slab->st_distance, radiance);
       double r2 = chain_dot(away, away);
       double area = lamp->scale * lamp->scale * lu * lv / (slab->samples[0] * slab->samples[1]);
       for (int c = 0; c < 3; ++c)
-        rgb[c] += lamp->gain * radiance[c] * height * facing / (r2 * r2) * area;
+        rgb[c] += lamp->gain * (double)radiance[c] * height * facing / (r2 * r2) * area;
     }
 }
 
@@ -212,23 +158,22 @@ struct chain_plane chain_facing(const struct chain_lamp *lamp, int page, double 
   return plane;
 }
 
-static void pixel(const struct chain_plane *plane, int x, int y, double at[3]) {
-  for (int c = 0; c < 3; ++c)
-    at[c] = plane->center[c] + ((x + 0.5) / CHAIN_SIZE - 0.5) * plane->across[c] +
-            ((y + 0.5) / CHAIN_SIZE - 0.5) * plane->down[c];
+void chain_pixel(const struct chain_plane *plane, int size, int pixel, double at[3]) {
+  int row = pixel / size;
+  double x = (pixel % size + 0.5) / size - 0.5, y = (row + 0.5) / size - 0.5;
+  for (int c = 0; c < 3; ++c) at[c] = plane->center[c] + x * plane->across[c] + y * plane->down[c];
 }
 
 void chain_direct(const struct chain_lamp *lamps, int count, const struct chain_plane *plane,
                   double *rgb) {
-  for (int y = 0; y < CHAIN_SIZE; ++y)
-    for (int x = 0; x < CHAIN_SIZE; ++x) {
-      double at[3], sum[3] = {0, 0, 0};
-      pixel(plane, x, y, at);
-      for (int k = 0; k < count; ++k)
-        for (int p = 0; p < lamps[k].count; ++p)
-          add_page(lamps, count, &lamps[k], &lamps[k].pages[p], at, plane->normal, sum);
-      for (int c = 0; c < 3; ++c) rgb[3 * (y * CHAIN_SIZE + x) + c] = sum[c] / M_PI;
-    }
+  for (int pixel = 0; pixel < CHAIN_PIXELS; ++pixel) {
+    double at[3], sum[3] = {0, 0, 0};
+    chain_pixel(plane, CHAIN_SIZE, pixel, at);
+    for (int k = 0; k < count; ++k)
+      for (int p = 0; p < lamps[k].count; ++p)
+        add_page(lamps, count, &lamps[k], &lamps[k].pages[p], at, plane->normal, sum);
+    for (int c = 0; c < 3; ++c) rgb[3 * pixel + c] = sum[c] / M_PI;
+  }
 }
 
 /* ---- Programs and files, in a folder that the test owns ---- */
@@ -278,28 +223,28 @@ const char *chain_log(void) {
   return text;
 }
 
-/* What went wrong stands at the end, below POV-Ray's long greeting. */
+/* An error is at the end, below what POV-Ray prints first. */
 static const char *log_tail(void) {
   const char *text = chain_log();
   size_t length = strlen(text), most = 600;
   return length > most ? text + length - most : text;
 }
 
-void chain_include(const struct slab *pages, int count, const char *name, const char *options) {
-  char file[64];
+void chain_write(const char *file, const struct slab *pages, int count) {
   struct error error;
-  snprintf(file, sizeof file, "%s-slab.exr", name);
   if (slab_file_write(chain_path(file), pages, count, SLAB_PRECISION_FLOAT, &error) != RESULT_OK)
     fail_msg("%s", error.text);
+}
+
+void chain_include(const struct slab *pages, int count, const char *name, const char *options) {
+  char file[64];
+  snprintf(file, sizeof file, "%s-slab.exr", name);
+  chain_write(file, pages, count);
   if (chain_run("\"$BAKESLAB\" include %s -o %s.inc %s", file, name, options) != 0)
     fail_msg("%s", log_tail());
 }
 
-void chain_scene(const struct chain_plane *plane, const char *lights) {
-  chain_scene_in(plane, 1, lights);
-}
-
-void chain_scene_in(const struct chain_plane *plane, double pigment, const char *lights) {
+void chain_scene(const struct chain_plane *plane, double pigment, const char *lights) {
   FILE *file = fopen(chain_path("scene.pov"), "w");
   assert_non_null(file);
   const double *p = plane->center, *n = plane->normal, *a = plane->across, *d = plane->down;
@@ -314,12 +259,18 @@ void chain_scene_in(const struct chain_plane *plane, double pigment, const char 
   assert_int_equal(fclose(file), 0);
 }
 
-void chain_place(const struct chain_lamp *lamp, char *sdl, size_t size) {
-  size_t length = (size_t)snprintf(sdl, size, "object { Test_Lamp_Canned(%.17g, %.17g) matrix <",
-                                   lamp->scale, lamp->gain);
+size_t chain_object(const char *arguments, const double matrix[12], char *sdl, size_t size) {
+  size_t length = (size_t)snprintf(sdl, size, "object { Test_Lamp_Canned(%s) matrix <", arguments);
   for (int k = 0; k < 12; ++k)
-    length += (size_t)snprintf(sdl + length, size - length, "%.17g%s", lamp->matrix[k],
+    length += (size_t)snprintf(sdl + length, size - length, "%.17g%s", matrix[k],
                                k < 11 ? ", " : "> }\n");
+  return length;
+}
+
+void chain_place(const struct chain_lamp *lamp, char *sdl, size_t size) {
+  char arguments[64];
+  snprintf(arguments, sizeof arguments, "%.17g, %.17g", lamp->scale, lamp->gain);
+  chain_object(arguments, lamp->matrix, sdl, size);
 }
 
 void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_t size) {
@@ -341,11 +292,36 @@ void chain_render(struct picture *picture) {
   assert_int_equal(picture->height, CHAIN_SIZE);
 }
 
-double chain_rmse(const struct picture *picture, const double *direct) {
+double chain_rmse(const struct picture *picture, const double *sum) {
   double error = 0, size = 0;
   for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) {
-    error += (picture->rgb[k] - direct[k]) * (picture->rgb[k] - direct[k]);
-    size += direct[k] * direct[k];
+    error += (picture->rgb[k] - sum[k]) * (picture->rgb[k] - sum[k]);
+    size += sum[k] * sum[k];
   }
   return sqrt(error / size);
+}
+
+double chain_error_of(const struct chain_plane *plane, double pigment, const char *sdl,
+                      const double *sum) {
+  struct picture picture;
+  chain_scene(plane, pigment, sdl);
+  chain_render(&picture);
+  double error = chain_rmse(&picture, sum);
+  picture_free(&picture);
+  return error;
+}
+
+double chain_error(const struct chain_lamp *lamps, int count, const struct chain_plane *plane,
+                   double pigment, const char *sdl) {
+  static double direct[3 * CHAIN_PIXELS];
+  chain_direct(lamps, count, plane, direct);
+  return chain_error_of(plane, pigment, sdl, direct);
+}
+
+void chain_says(const struct slab *pages, const char *sdl, int status, const char *text) {
+  struct chain_lamp lamp = chain_lamp_of(pages, 1, 1);
+  struct chain_plane plane = chain_facing(&lamp, 0, 1);
+  chain_scene(&plane, 1, sdl);
+  assert_int_equal(chain_povray(), status);
+  if (!strstr(chain_log(), text)) fail_msg("POV-Ray does not say \"%s\"", text);
 }

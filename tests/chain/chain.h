@@ -10,17 +10,14 @@
 
 #include "file/slab_exr.h"
 #include "file/slab_file.h"
+#include "oracle/lookup.h"
+#include "oracle/random.h"
 #include "testing.h"
 
 enum { CHAIN_SIZE = 48, CHAIN_PIXELS = CHAIN_SIZE * CHAIN_SIZE };
 
 double chain_dot(const double x[3], const double y[3]);
 double chain_length(const double x[3]);
-double chain_random(uint64_t *state); /* [0, 1) */
-
-/* Three unit vectors perpendicular to each other, and their triple product. */
-void chain_frame(uint64_t *state, double frame[3][3]);
-double chain_handedness(const double x[3], const double y[3], const double z[3]);
 
 /* ---- Slabs; free with slab_free ---- */
 
@@ -31,8 +28,6 @@ void chain_fill(struct slab *slab, uint64_t *state);
  * place; mirrored makes u x v = -n. */
 struct slab chain_slab(const int samples[4], const double edges[2], const double window[4],
                        double distance, int mirrored, uint64_t seed);
-
-float *chain_sample(const struct slab *slab, int i, int j, int k, int l);
 
 /* Means over nu x nv equal cells of the aperture; old cells count by area. */
 struct slab chain_means(const struct slab *from, int nu, int nv);
@@ -50,7 +45,12 @@ struct chain_lamp {
                          the first page's aperture and shades other lamps' light */
 };
 
-extern const double chain_identity[12];
+/* One that stands as it is in lamp space, enlarged. */
+struct chain_lamp chain_lamp_of(const struct slab *pages, int count, double scale);
+
+/* The image of a point (origin 1) or a direction (0): scale x M + origin t. */
+void chain_move(const double matrix[12], double scale, const double x[3], double origin,
+                double out[3]);
 
 /* A receiving plane, seen from above: pixel centres are spread over the
  * rectangle `across` x `down` around `center`. */
@@ -61,6 +61,9 @@ struct chain_plane {
 /* The plane that a page of a lamp shines at, `distance` aperture widths away,
  * tilted a little, as large as what its light reaches there. */
 struct chain_plane chain_facing(const struct chain_lamp *lamp, int page, double distance);
+
+/* The middle of a pixel of a picture of size x size. */
+void chain_pixel(const struct chain_plane *plane, int size, int pixel, double at[3]);
 
 /* Radiance E/pi of a white plane under all lamps, CHAIN_PIXELS x RGB: a
  * midpoint sum over uv samples, which is what the sheet promises. */
@@ -75,23 +78,27 @@ int chain_teardown(void **state);
 /* Path of a file in the folder; valid until the next call. */
 const char *chain_path(const char *name);
 
-/* Runs a command in the folder, its talk going to the file `log` there.
+/* Runs a command in the folder, its output going to the file `log` there.
  * Returns its exit status. */
 int chain_run(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* The log with all runs of blanks as one, since POV-Ray wraps its lines. */
 const char *chain_log(void);
 
-/* Writes slabs to NAME-slab.exr, whose floats are exact, and makes NAME.inc. */
+/* Writes slabs of exact floats to a file; and to NAME-slab.exr, and makes NAME.inc. */
+void chain_write(const char *file, const struct slab *pages, int count);
 void chain_include(const struct slab *pages, int count, const char *name, const char *options);
 
-/* Writes scene.pov: the plane, white or of another pigment, seen by pixel centres, under
+/* Writes scene.pov: the plane, white (1) or of another pigment, seen by pixel centres, under
  * `lights`. */
-void chain_scene(const struct chain_plane *plane, const char *lights);
-void chain_scene_in(const struct chain_plane *plane, double pigment, const char *lights);
+void chain_scene(const struct chain_plane *plane, double pigment, const char *lights);
 
-/* The SDL that places "Test_Lamp_Canned" as `lamp` says; and that includes "lamp.inc"
- * and places several. */
+/* SDL that includes "lamp.inc" and shows its lamp, of the Scale and Gain of a string. */
+#define CHAIN_LIT(ARGUMENTS) "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(" ARGUMENTS ") }"
+
+/* The SDL that places "Test_Lamp_Canned" of these arguments, and its length; as `lamp` says; and
+ * that includes "lamp.inc" and places several. */
+size_t chain_object(const char *arguments, const double matrix[12], char *sdl, size_t size);
 void chain_place(const struct chain_lamp *lamp, char *sdl, size_t size);
 void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_t size);
 
@@ -99,7 +106,15 @@ void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_
 int chain_povray(void);
 void chain_render(struct picture *picture);
 
-/* Relative root mean squared difference of the frame from the direct sum. */
-double chain_rmse(const struct picture *picture, const double *direct);
+/* Relative root mean squared difference of a picture from a sum; of the picture of the plane under
+ * `sdl` from the direct sum over the lamps, and from another sum. */
+double chain_rmse(const struct picture *picture, const double *sum);
+double chain_error(const struct chain_lamp *lamps, int count, const struct chain_plane *plane,
+                   double pigment, const char *sdl);
+double chain_error_of(const struct chain_plane *plane, double pigment, const char *sdl,
+                      const double *sum);
+
+/* The plane one width from the first page, under `sdl`: POV-Ray exits so, and says this. */
+void chain_says(const struct slab *pages, const char *sdl, int status, const char *text);
 
 #endif

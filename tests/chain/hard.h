@@ -44,7 +44,7 @@ struct hard_case {
   enum hard_expect expect;
 };
 
-/* What became of it: HARD_RIGHT, HARD_REFUSED or HARD_MISSED. */
+/* What came of a case: HARD_RIGHT, HARD_REFUSED or HARD_MISSED. */
 struct hard_result {
   enum hard_expect verdict;
   double error, allowed;
@@ -58,7 +58,7 @@ void hard_free(struct hard_case *lit);
 
 /* ---- hard_sum.c: the sums. */
 
-/* A picture's radiance E/pi, and how far it may be off for reasons of its own: light at an
+/* A picture's radiance E/pi, and by how much it is in doubt: light at an
  * edge of a window or of a shadow, and what half floats cannot hold. Pixels that are too
  * close to a lamp to be compared, or where nothing is stated, are infinitely in doubt. */
 struct hard_sum {
@@ -76,9 +76,6 @@ double hard_width(const struct slab *page);
 /* The radius of a far field's sphere, at Scale 1, of a lamp so wide. */
 double hard_radius(const struct hard_lamp *lamp, double width);
 
-/* The middle of a pixel. */
-void hard_pixel(const struct hard_case *lit, int pixel, double at[3]);
-
 /* ---- hard_text.c: what the include says. */
 
 /* Reads `count` numbers after the text, from the include; false where there are fewer. */
@@ -91,7 +88,7 @@ double hard_stated(const struct hard_case *lit);
 /* ---- hard_rows.c: the kinds of hard cases. */
 struct hard_row {
   const char *name, *text;
-  void (*make)(uint64_t *seed, struct hard_case *lit); /* kind and slab's seed are set */
+  void (*make)(uint64_t *seed, struct hard_case *lit); /* what is easy so far */
 };
 extern const struct hard_row hard_rows[];
 extern const int hard_row_count;

@@ -5,33 +5,18 @@
 
 #include "hard.h"
 
-/* ---- Random numbers ---- */
-
-static double between(uint64_t *seed, double low, double high) {
-  return low + (high - low) * chain_random(seed);
-}
-
-static double decades(uint64_t *seed, double low, double high) {
-  return pow(10, between(seed, low, high));
-}
-
-static int choose(uint64_t *seed, int count) {
-  return (int)(count * chain_random(seed));
-}
-
 /* ---- An easy lamp, which the rows then make hard ---- */
 
-/* What few area lights can be: soft. */
+/* Soft radiance, which few area lights can give. */
 static void soften(struct slab *slab) {
-  const int *n = slab->samples;
-  for (int m = 0; m < n[0] * n[1] * n[2] * n[3]; ++m) {
-    int i = m % n[0], j = m / n[0] % n[1], k = m / (n[0] * n[1]) % n[2],
-        l = m / (n[0] * n[1] * n[2]);
-    double a = (i + 0.5) / n[0] - 0.5, b = (j + 0.5) / n[1] - 0.5;
-    double s = (k + 0.5) / n[2] - 0.5, t = (l + 0.5) / n[3] - 0.5;
-    double light = 1 + 4 * exp(-4 * ((s - a) * (s - a) + (t + 0.3 * b) * (t + 0.3 * b)));
-    float *rgb = chain_sample(slab, i, j, k, l);
-    for (int c = 0; c < 3; ++c) rgb[c] = (float)(light * (1 + s * (c - 1)));
+  for (size_t m = 0; m < slab_sample_count(slab); ++m) {
+    int at[4];
+    double x[4];
+    slab_locate(slab, m, at);
+    for (int k = 0; k < 4; ++k) x[k] = (at[k] + 0.5) / slab->samples[k] - 0.5;
+    double p = x[2] - x[0], q = x[3] + 0.3 * x[1], light = 1 + 4 * exp(-4 * (p * p + q * q));
+    for (int c = 0; c < 3; ++c)
+      slab->rgb[3 * m + (size_t)c] = (float)(light * (1 + x[2] * (c - 1)));
   }
 }
 
@@ -53,61 +38,52 @@ static void make_page(uint64_t *seed, enum hard_kind kind, struct slab *slab) {
   int samples[4];
   double edges[2] = {1, 1}, window[4];
   for (int k = 0; k < 2; ++k) {
-    samples[k] = 1 + choose(seed, 5);
-    samples[2 + k] = 4 + choose(seed, 10);
-    window[2 * k] = between(seed, -1.5, 0.2);
-    window[2 * k + 1] = window[2 * k] + between(seed, 0.5, 2);
+    samples[k] = 1 + random_choose(seed, 5);
+    samples[2 + k] = 4 + random_choose(seed, 10);
+    window[2 * k] = random_between(seed, -1.5, 0.2);
+    window[2 * k + 1] = window[2 * k] + random_between(seed, 0.5, 2);
   }
-  edges[choose(seed, 2)] = between(seed, 0.3, 1);
-  double distance = choose(seed, 2) ? INFINITY : decades(seed, -0.2, 1.5);
-  int mirrored = choose(seed, 2);
+  edges[random_choose(seed, 2)] = random_between(seed, 0.3, 1);
+  double distance = random_choose(seed, 2) ? INFINITY : random_log(seed, 0.6, 30);
+  int mirrored = random_choose(seed, 2);
   *slab = chain_slab(samples, edges, window, distance, mirrored,
-                     (uint64_t)(chain_random(seed) * 0x1p53));
+                     (uint64_t)(random_number(seed) * 0x1p53));
   if (kind == HARD_CLUSTER) soften(slab);
-  if (choose(seed, 4) > 0) return;
+  if (random_choose(seed, 4) > 0) return;
   for (size_t k = 0; k < 3 * slab_sample_count(slab); ++k) slab->rgb[k] = slab->rgb[k / 3 * 3];
 }
 
 static void turn_lamp(uint64_t *seed, struct hard_lamp *lamp) {
   double frame[3][3];
-  chain_frame(seed, frame);
+  random_frame(seed, 0, frame);
   for (int k = 0; k < 9; ++k) lamp->matrix[k] = frame[k / 3][k % 3];
 }
 
 /* So many of its widths from the origin. */
 static void move_lamp(uint64_t *seed, double widths, const struct slab *page,
                       struct hard_lamp *lamp) {
-  double frame[3][3];
-  chain_frame(seed, frame);
-  for (int c = 0; c < 3; ++c)
-    lamp->matrix[9 + c] = widths * hard_width(page) * lamp->scale * frame[0][c];
+  double to[3];
+  random_direction(seed, to);
+  for (int c = 0; c < 3; ++c) lamp->matrix[9 + c] = widths * hard_width(page) * lamp->scale * to[c];
 }
 
 static void make_lamp(uint64_t *seed, struct hard_case *lit) {
   struct hard_lamp *lamp = &lit->lamps[0];
   *lamp = (struct hard_lamp){.scale = 1, .gain = {1, 1, 1}};
   turn_lamp(seed, lamp);
-  move_lamp(seed, between(seed, 0, 3), &lit->pages[0], lamp);
+  move_lamp(seed, random_between(seed, 0, 3), &lit->pages[0], lamp);
   lit->lamp_count = 1;
 }
 
 static void easy(uint64_t *seed, struct hard_case *lit) {
   make_page(seed, lit->kind, &lit->pages[0]);
   lit->page_count = 1;
-  if (lit->kind == HARD_CLUSTER) lit->lights = 1 + choose(seed, 2);
+  if (lit->kind == HARD_CLUSTER) lit->lights = 1 + random_choose(seed, 2);
   make_lamp(seed, lit);
   lit->expect = HARD_RIGHT;
 }
 
 /* ---- What it shines at ---- */
-
-static void to_scene(const struct hard_lamp *lamp, const double x[3], double origin,
-                     double out[3]) {
-  for (int c = 0; c < 3; ++c)
-    out[c] = lamp->scale * (x[0] * lamp->matrix[c] + x[1] * lamp->matrix[3 + c] +
-                            x[2] * lamp->matrix[6 + c]) +
-             origin * lamp->matrix[9 + c];
-}
 
 /* What covers the lit part of the plane `widths` away, parallel to the aperture, askew so that
  * no row of pixels follows an edge; or, not squarely, a part of it, turned by up to a radian,
@@ -116,12 +92,12 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
   const struct slab *page = &lit->pages[0];
   const double *w = page->st_window;
   double away = widths * hard_width(page), size[2], middle[3], frame[3][3], turned[3][3];
-  double share = squarely ? 0.5 : 0, part = squarely ? 1 : decades(seed, -1, 0);
+  double share = squarely ? 0.5 : 0, part = squarely ? 1 : random_log(seed, 0.1, 1);
   for (int c = 0; c < 3; ++c) middle[c] = page->center[c] + away * page->normal[c];
   for (int k = 0; k < 2; ++k) {
     const double *axis = k ? page->v : page->u;
     double edge = chain_length(axis);
-    if (!squarely) share = between(seed, 0.05, 0.95);
+    if (!squarely) share = random_between(seed, 0.05, 0.95);
     for (int c = 0; c < 3; ++c)
       middle[c] += away * (w[2 * k] + share * (w[2 * k + 1] - w[2 * k])) * axis[c] / edge;
     size[k] = part * (fabs(1 - away / page->st_distance) * edge + away * (w[2 * k + 1] - w[2 * k]));
@@ -131,9 +107,9 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
   for (int c = 0; c < 3; ++c)
     frame[2][c] = squarely ? -page->normal[c] : (page->center[c] - middle[c]) / away;
   if (!squarely) {
-    double other[3][3], tilt = between(seed, 0, 0.8);
-    chain_frame(seed, other);
-    for (int c = 0; c < 3; ++c) frame[2][c] += tilt * other[0][c];
+    double aside[3], tilt = random_between(seed, 0, 0.8);
+    random_direction(seed, aside);
+    for (int c = 0; c < 3; ++c) frame[2][c] += tilt * aside[c];
   }
   for (int k = 2; k >= 0; --k) {
     for (int m = 2; m > k; --m) {
@@ -142,9 +118,9 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
     }
     double length = chain_length(frame[k]);
     for (int c = 0; c < 3; ++c) frame[k][c] /= length;
-    to_scene(&lit->lamps[0], frame[k], 0, turned[k]);
+    chain_move(lit->lamps[0].matrix, lit->lamps[0].scale, frame[k], 0, turned[k]);
   }
-  to_scene(&lit->lamps[0], middle, 1, lit->plane.center);
+  chain_move(lit->lamps[0].matrix, lit->lamps[0].scale, middle, 1, lit->plane.center);
   double angle = squarely ? 0.4 : 0, co = cos(angle), si = sin(angle);
   double across = co * size[0] + si * size[1], down = si * size[0] + co * size[1];
   for (int c = 0; c < 3; ++c) {
@@ -154,9 +130,9 @@ static void face(uint64_t *seed, double widths, bool squarely, struct hard_case 
   }
 }
 
-/* Decades of widths from the origin that a lamp may be, with what it lights; and how wide it
- * may be in the scene. */
-static const double farthest[HARD_KINDS] = {3, 6, 4}, widest = 1e9;
+/* Widths from the origin that a lamp may be, with what it lights; and how wide it may be in the
+ * scene. */
+static const double farthest[HARD_KINDS] = {1e3, 1e6, 1e4}, widest = 1e9;
 
 /* So many widths away, but not before a sheet, which stands far away where windows are narrow, not
  * among a cluster's points, and not beside a sphere, which is large where the lamp is small. */
@@ -172,10 +148,10 @@ static void look_from(uint64_t *seed, double widths, struct hard_case *lit) {
 }
 
 static void look_at_it(uint64_t *seed, struct hard_case *lit) {
-  look_from(seed, decades(seed, -0.3, 1.3), lit);
+  look_from(seed, random_log(seed, 0.5, 20), lit);
 }
 
-/* ---- Rows ---- */
+/* ---- Rows: each makes the easy case hard ---- */
 
 /* The least Scale, as the header's tables say it. */
 static double least_scale(const struct hard_case *lit) {
@@ -193,76 +169,72 @@ static double least_scale(const struct hard_case *lit) {
 }
 
 static void row_edge(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
-  scale_page(&lit->pages[0], decades(seed, -3, 3));
-  double by = choose(seed, 3) ? 1 + decades(seed, -3.5, 0) : 1 - decades(seed, -3.5, -0.3);
-  if (choose(seed, 2)) lit->most = 1 + choose(seed, 5);
+  scale_page(&lit->pages[0], random_log(seed, 1e-3, 1e3));
+  double by =
+      random_choose(seed, 3) ? 1 + random_log(seed, 3e-4, 1) : 1 - random_log(seed, 3e-4, 0.5);
+  if (random_choose(seed, 2)) lit->most = 1 + random_choose(seed, 5);
   lit->lamps[0].scale = by * least_scale(lit);
-  move_lamp(seed, decades(seed, -2, 3), &lit->pages[0], &lit->lamps[0]);
+  move_lamp(seed, random_log(seed, 0.01, 1e3), &lit->pages[0], &lit->lamps[0]);
   lit->expect = by > 1 ? HARD_RIGHT : HARD_REFUSED;
   look_at_it(seed, lit);
 }
 
 static void row_units(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
-  double far = choose(seed, 3) ? 12 : 140, unit = decades(seed, -far, far);
-  double wide = decades(seed, -3, 10);
+  double far = random_choose(seed, 3) ? 1e12 : 1e140, unit = random_log(seed, 1 / far, far);
+  double wide = random_log(seed, 1e-3, 1e10);
   scale_page(&lit->pages[0], unit);
   lit->lamps[0].scale = wide / hard_width(&lit->pages[0]);
   bool small = least_scale(lit) > lit->lamps[0].scale;
   bool large = wide > 1.002 * widest;
-  for (int c = 0; c < 3; ++c) lit->lamps[0].gain[c] = decades(seed, -2, 20);
-  double most = fmin(farthest[lit->kind], 9.8 - log10(wide));
-  move_lamp(seed, decades(seed, -3, most), &lit->pages[0], &lit->lamps[0]);
+  for (int c = 0; c < 3; ++c) lit->lamps[0].gain[c] = random_log(seed, 0.01, 1e20);
+  double most = fmin(farthest[lit->kind], 6e9 / wide);
+  move_lamp(seed, random_log(seed, 1e-3, most), &lit->pages[0], &lit->lamps[0]);
   lit->expect = small || large ? HARD_REFUSED : HARD_RIGHT;
   look_at_it(seed, lit);
 }
 
 static void row_place(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
-  lit->lamps[0].scale = decades(seed, -0.5, 3);
-  double most = farthest[lit->kind] - 0.5; /* windows are oblique: receivers are farther off */
-  move_lamp(seed, decades(seed, 0, most), &lit->pages[0], &lit->lamps[0]);
-  face(seed, decades(seed, -0.3, choose(seed, 2) ? 1.3 : most), false, lit);
+  lit->lamps[0].scale = random_log(seed, 0.3, 1e3);
+  double most = farthest[lit->kind] / 3; /* windows are oblique: receivers are farther off */
+  move_lamp(seed, random_log(seed, 1, most), &lit->pages[0], &lit->lamps[0]);
+  face(seed, random_log(seed, 0.5, random_choose(seed, 2) ? 20 : most), false, lit);
   for (int c = 0; c < 3; ++c) lit->lamps[0].gain[c] = 1e12;
 }
 
 static void row_gain(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
-  double bright = decades(seed, -30, 30), gain = decades(seed, -6, 30) / bright;
+  double bright = random_log(seed, 1e-30, 1e30), gain = random_log(seed, 1e-6, 1e30) / bright;
   brighten(&lit->pages[0], bright);
   for (int c = 0; c < 3; ++c)
-    lit->lamps[0].gain[c] = gain * (choose(seed, 2) ? 1 : between(seed, -1, 1));
+    lit->lamps[0].gain[c] = gain * (random_choose(seed, 2) ? 1 : random_between(seed, -1, 1));
   lit->expect = HARD_EITHER;
   look_at_it(seed, lit);
 }
 
 /* Half floats end at 65504 and 6e-8. */
 static void row_range(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
   struct slab *slab = &lit->pages[0];
   size_t values = 3 * slab_sample_count(slab);
-  double range = between(seed, 0, 20), peak = decades(seed, 4, 10);
-  int how = choose(seed, 3);
+  double range = random_log(seed, 1, 1e20), peak = random_log(seed, 1e4, 1e10);
+  int how = random_choose(seed, 3);
   for (size_t k = 0; k < values; ++k)
-    slab->rgb[k] = how ? (float)(1 + chain_random(seed)) : (float)decades(seed, -range, 4);
+    slab->rgb[k] =
+        how ? (float)random_between(seed, 1, 2) : (float)random_log(seed, 1 / range, 1e4);
   for (int k = 0; k < how; ++k)
-    slab->rgb[choose(seed, (int)values)] =
-        k ? (float)peak : 65504.0F * (float)(1 + choose(seed, 3));
+    slab->rgb[random_choose(seed, (int)values)] =
+        k ? (float)peak : 65504.0F * (float)(1 + random_choose(seed, 3));
   look_at_it(seed, lit);
 }
 
 /* Windows narrow, steep and off the normal; apertures thin. */
 static void row_window(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
   struct slab *slab = &lit->pages[0];
   for (int k = 0; k < 2; ++k) {
-    double middle = (choose(seed, 2) ? 1 : -1) * decades(seed, -2, 1);
-    double half = decades(seed, -3, 1);
+    double middle = (random_choose(seed, 2) ? 1 : -1) * random_log(seed, 0.01, 10);
+    double half = random_log(seed, 1e-3, 10);
     slab->st_window[2 * k] = middle - half;
     slab->st_window[2 * k + 1] = middle + half;
   }
-  double thin = decades(seed, -3, 0);
+  double thin = random_log(seed, 1e-3, 1);
   for (int c = 0; c < 3; ++c) slab->v[c] *= thin;
   lit->lamps[0].scale = fmax(1, 1.1 * least_scale(lit));
   lit->expect = HARD_EITHER;
@@ -270,37 +242,31 @@ static void row_window(uint64_t *seed, struct hard_case *lit) {
 }
 
 static void row_st_plane(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
   struct slab *slab = &lit->pages[0];
-  slab->st_distance = decades(seed, -3, 6) * hard_width(slab);
+  slab->st_distance = random_log(seed, 1e-3, 1e6) * hard_width(slab);
   lit->lamps[0].scale = fmax(1, 1.1 * least_scale(lit));
   lit->expect = HARD_EITHER;
-  double there = fmin(slab->st_distance / hard_width(slab), pow(10, farthest[lit->kind] - 0.5));
-  look_from(seed, choose(seed, 2) ? decades(seed, -0.3, 1.3) : there, lit);
+  double there = fmin(slab->st_distance / hard_width(slab), farthest[lit->kind] / 3);
+  look_from(seed, random_choose(seed, 2) ? random_log(seed, 0.5, 20) : there, lit);
 }
 
 static void row_lights(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
-  if (lit->kind == HARD_SHEET && choose(seed, 2)) lit->lights = 1 + choose(seed, 6);
-  lit->most = between(seed, 1, 8);
-  if (choose(seed, 2)) lit->most = floor(lit->most);
+  if (lit->kind == HARD_SHEET && random_choose(seed, 2)) lit->lights = 1 + random_choose(seed, 6);
+  lit->most = random_between(seed, 1, 8);
+  if (random_choose(seed, 2)) lit->most = floor(lit->most);
   look_at_it(seed, lit);
 }
 
 /* Side by side, facing the same way, of different sizes. */
 static void row_pages(uint64_t *seed, struct hard_case *lit) {
-  easy(seed, lit);
   struct slab *first = &lit->pages[0], *second = &lit->pages[1];
   make_page(seed, lit->kind, second);
   lit->page_count = 2;
   if (lit->kind == HARD_CLUSTER) lit->lights = 2;
-  double size = between(seed, 0.3, 2), aside = between(seed, 0.6, 2);
+  double size = random_between(seed, 0.3, 2), aside = random_between(seed, 0.6, 2);
   scale_page(second, size);
   for (int c = 0; c < 3; ++c) {
-    second->u[c] = first->u[c] * size * between(seed, 0.5, 1);
     second->center[c] = first->center[c] + aside * (1 + size) * first->u[c];
-  }
-  for (int c = 0; c < 3; ++c) {
     second->u[c] = first->u[c] * size;
     second->v[c] = first->v[c] * size;
     second->normal[c] = first->normal[c];
@@ -312,11 +278,10 @@ static void row_pages(uint64_t *seed, struct hard_case *lit) {
 /* Up to twenty lamps in each other's beams, which shade each other by their cases. */
 static void row_beams(uint64_t *seed, struct hard_case *lit) {
   static const int most[HARD_KINDS] = {HARD_LAMPS, HARD_LAMPS, 3};
-  easy(seed, lit);
-  if (lit->kind == HARD_SHEET) lit->most = 1 + choose(seed, 3);
+  if (lit->kind == HARD_SHEET) lit->most = 1 + random_choose(seed, 3);
   const struct slab *page = &lit->pages[0];
   double apart = hard_width(page) * 1.5;
-  lit->lamp_count = 2 + choose(seed, most[lit->kind] - 1);
+  lit->lamp_count = 2 + random_choose(seed, most[lit->kind] - 1);
   for (int n = 1; n < lit->lamp_count; ++n) {
     struct hard_lamp *lamp = &lit->lamps[n];
     *lamp = (struct hard_lamp){.scale = 0.3, .gain = {1, 1, 1}};
@@ -325,16 +290,16 @@ static void row_beams(uint64_t *seed, struct hard_case *lit) {
     do { /* in a ball before the first lamp, not in each other */
       double from[3];
       for (int c = 0; c < 3; ++c)
-        from[c] = page->center[c] + apart * (2 * page->normal[c] + between(seed, -1.5, 1.5));
-      to_scene(&lit->lamps[0], from, 1, at);
+        from[c] = page->center[c] + apart * (2 * page->normal[c] + random_between(seed, -1.5, 1.5));
+      chain_move(lit->lamps[0].matrix, lit->lamps[0].scale, from, 1, at);
       nearest = INFINITY;
       for (int m = 0; m < n; ++m) {
-        to_scene(&lit->lamps[m], page->center, 1, other);
+        chain_move(lit->lamps[m].matrix, lit->lamps[m].scale, page->center, 1, other);
         for (int c = 0; c < 3; ++c) other[c] -= at[c];
         nearest = fmin(nearest, chain_length(other));
       }
     } while (nearest < 0.6 * apart * 0.6);
-    to_scene(lamp, page->center, 0, other);
+    chain_move(lamp->matrix, lamp->scale, page->center, 0, other);
     for (int c = 0; c < 3; ++c) lamp->matrix[9 + c] = at[c] - other[c];
   }
   face(seed, 8, false, lit);
@@ -343,10 +308,9 @@ static void row_beams(uint64_t *seed, struct hard_case *lit) {
 static void row_switches(uint64_t *seed, struct hard_case *lit) {
   static const char *const switches[] = {"+Q4",       "+Q5", "+Q11",   "+MB1",    "-MB", "+BM2",
                                          "+WT2 +BS5", "+UA", "-J +UL", "+Q9 -UV", "+HR", "+F +RP2"};
-  easy(seed, lit);
   int first = lit->kind == HARD_CLUSTER; /* area lights need +Q5 */
   lit->switches =
-      switches[first + choose(seed, (int)(sizeof switches / sizeof *switches) - 1 - first)];
+      switches[first + random_choose(seed, (int)(sizeof switches / sizeof *switches) - 1 - first)];
   look_at_it(seed, lit);
 }
 
@@ -381,8 +345,7 @@ static void row_arguments(uint64_t *seed, struct hard_case *lit) {
       {"1, rgb <1, 1, 1e38>", 1, {1, 1, 1}, HARD_REFUSED},
       {"1, 1e-30", 1, {1, 1, 1}, HARD_REFUSED},
   };
-  easy(seed, lit);
-  int n = choose(seed, (int)(sizeof cases / sizeof *cases));
+  int n = random_choose(seed, (int)(sizeof cases / sizeof *cases));
   struct hard_lamp *lamp = &lit->lamps[0];
   snprintf(lamp->arguments, sizeof lamp->arguments, "%s", cases[n].text);
   lamp->scale = cases[n].scale;
@@ -393,11 +356,11 @@ static void row_arguments(uint64_t *seed, struct hard_case *lit) {
 
 static void row_stated(uint64_t *seed, struct hard_case *lit) {
   static const double sheets[] = {0.5, 1, 2, 4, 8}, others[] = {1, 4, 16};
-  easy(seed, lit);
   lit->stated = true;
   lit->size = 64; /* receivers must not miss thin edges */
-  lit->away = lit->kind == HARD_SHEET ? sheets[choose(seed, 5)] : others[choose(seed, 3)];
-  if (lit->kind == HARD_SHEET) lit->most = 1 + choose(seed, 5);
+  lit->away =
+      lit->kind == HARD_SHEET ? sheets[random_choose(seed, 5)] : others[random_choose(seed, 3)];
+  if (lit->kind == HARD_SHEET) lit->most = 1 + random_choose(seed, 5);
   face(seed, lit->away, true, lit);
 }
 
@@ -423,5 +386,6 @@ void hard_make(int row, uint32_t seed, struct hard_case *lit) {
   memset(lit, 0, sizeof *lit);
   lit->kind = (enum hard_kind)(seed % HARD_KINDS);
   lit->size = 20;
+  easy(&state, lit);
   hard_rows[row].make(&state, lit);
 }

@@ -38,14 +38,9 @@ static bool refused_well(int status) {
 }
 
 static bool make_include(const struct hard_case *lit, struct hard_result *result) {
-  struct error error;
   char lights[32] = "";
   chain_run("rm -f lamp.* said");
-  if (slab_file_write(chain_path("lamp-slab.exr"), lit->pages, lit->page_count,
-                      SLAB_PRECISION_FLOAT, &error) != RESULT_OK) {
-    judge(result, HARD_MISSED, "no slab: %s", error.text);
-    return false;
-  }
+  chain_write("lamp-slab.exr", lit->pages, lit->page_count);
   if (lit->lights > 0) snprintf(lights, sizeof lights, "--lights %d", lit->lights);
   int status = chain_run("\"$BAKESLAB\" include lamp-slab.exr -o lamp.inc --mode %s %s 2>said",
                          hard_kind_names[lit->kind], lights);
@@ -57,17 +52,10 @@ static bool make_include(const struct hard_case *lit, struct hard_result *result
 }
 
 static size_t place(const struct hard_lamp *lamp, char *sdl, size_t size) {
-  size_t length;
-  if (*lamp->arguments)
-    length = (size_t)snprintf(sdl, size, "object { Test_Lamp_Canned(%s) matrix <", lamp->arguments);
-  else
-    length = (size_t)snprintf(
-        sdl, size, "object { Test_Lamp_Canned(%.17g, rgb <%.17g, %.17g, %.17g>) matrix <",
-        lamp->scale, lamp->gain[0], lamp->gain[1], lamp->gain[2]);
-  for (int k = 0; k < 12; ++k)
-    length += (size_t)snprintf(sdl + length, size - length, "%.17g%s", lamp->matrix[k],
-                               k < 11 ? ", " : "> }\n");
-  return length;
+  char numbers[128];
+  snprintf(numbers, sizeof numbers, "%.17g, rgb <%.17g, %.17g, %.17g>", lamp->scale, lamp->gain[0],
+           lamp->gain[1], lamp->gain[2]);
+  return chain_object(*lamp->arguments ? lamp->arguments : numbers, lamp->matrix, sdl, size);
 }
 
 /* The first warning that is not the include's, nor of the camera, which may be askew. */
@@ -92,7 +80,7 @@ static bool render(const struct hard_case *lit, double pigment, struct hard_resu
   length += (size_t)snprintf(sdl + length, sizeof sdl - length, "#include \"lamp.inc\"\n");
   for (int n = 0; n < lit->lamp_count; ++n)
     length += place(&lit->lamps[n], sdl + length, sizeof sdl - length);
-  chain_scene_in(&lit->plane, pigment, sdl);
+  chain_scene(&lit->plane, pigment, sdl);
   int status =
       chain_run("rm -f frame.exr; povray +Iscene.pov +Oframe.exr +FE -A -D +WT1 +W%d +H%d %s",
                 lit->size, lit->size, lit->switches ? lit->switches : "");

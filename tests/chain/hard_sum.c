@@ -44,13 +44,6 @@ void hard_lights(const struct hard_case *lit, const struct slab *page, int light
     for (int k = 0; k < 2; ++k) lights[k] = (lights[k] + 1) / 2;
 }
 
-void hard_pixel(const struct hard_case *lit, int pixel, double at[3]) {
-  const struct chain_plane *plane = &lit->plane;
-  double x = (pixel % lit->size + 0.5) / lit->size - 0.5;
-  double y = ((pixel / lit->size) + 0.5) / lit->size - 0.5;
-  for (int c = 0; c < 3; ++c) at[c] = plane->center[c] + x * plane->across[c] + y * plane->down[c];
-}
-
 /* A page as it stands in the scene: a point is (x, y) along u and v and z along the normal. */
 struct standing {
   double center[3], axis[3][3]; /* unit */
@@ -58,16 +51,17 @@ struct standing {
 };
 
 static void turn(const struct hard_lamp *lamp, const double x[3], double turned[3]) {
-  for (int c = 0; c < 3; ++c)
-    turned[c] = x[0] * lamp->matrix[c] + x[1] * lamp->matrix[3 + c] + x[2] * lamp->matrix[6 + c];
+  chain_move(lamp->matrix, 1, x, 0, turned);
+}
+
+static void move(const struct hard_lamp *lamp, const double x[3], double moved[3]) {
+  chain_move(lamp->matrix, lamp->scale, x, 1, moved);
 }
 
 static struct standing stand(const struct hard_lamp *lamp, const struct slab *page) {
   struct standing standing = {.scale = lamp->scale};
   const double *axes[3] = {page->u, page->v, page->normal};
-  turn(lamp, page->center, standing.center);
-  for (int c = 0; c < 3; ++c)
-    standing.center[c] = lamp->scale * standing.center[c] + lamp->matrix[9 + c];
+  move(lamp, page->center, standing.center);
   for (int k = 0; k < 3; ++k) {
     double size = chain_length(axes[k]);
     turn(lamp, axes[k], standing.axis[k]);
@@ -141,20 +135,10 @@ static double passing(const struct hard_case *lit, int lamp, int page, const dou
 
 /* ---- Radiance ---- */
 
-static void taps(double x, double low, double high, int n, int index[2], double weight[2]) {
-  double place = fmin(fmax((x - low) / (high - low) * n - 0.5, 0), n - 1);
-  index[0] = (int)floor(place);
-  index[1] = index[0] + 1 < n ? index[0] + 1 : n - 1;
-  weight[1] = place - index[0];
-  weight[0] = 1 - weight[1];
-}
-
 /* Radiance of the ray; returns 0 outside of the window, 1 inside, 1/2 on its edge. */
 static double look(const struct slab *slab, const double place[2], const double slope[2],
                    double rgb[3]) {
-  int index[4][2];
-  double weight[4][2], inside = 1;
-  const double edges[2] = {chain_length(slab->u), chain_length(slab->v)};
+  double ray[4], inside = 1;
   rgb[0] = rgb[1] = rgb[2] = 0;
   for (int k = 0; k < 2; ++k) {
     const double *w = slab->st_window + 2 * k;
@@ -162,16 +146,10 @@ static double look(const struct slab *slab, const double place[2], const double 
     double within = fmin(slope[k] - w[0], w[1] - slope[k]);
     if (within < -near) return 0;
     if (within < near) inside = 0.5;
-    taps(place[k], -edges[k] / 2, edges[k] / 2, slab->samples[k], index[k], weight[k]);
-    taps(slope[k], w[0], w[1], slab->samples[2 + k], index[2 + k], weight[2 + k]);
+    ray[k] = place[k];
+    ray[2 + k] = fmin(fmax(slope[k], w[0]), w[1]);
   }
-  for (int m = 0; m < 16; ++m) {
-    double share = 1;
-    for (int k = 0; k < 4; ++k) share *= weight[k][m >> k & 1];
-    const float *sample = chain_sample(slab, index[0][m & 1], index[1][m >> 1 & 1],
-                                       index[2][m >> 2 & 1], index[3][m >> 3 & 1]);
-    for (int c = 0; c < 3; ++c) rgb[c] += share * sample[c];
-  }
+  oracle_lookup(slab, ray, rgb);
   return inside;
 }
 
@@ -204,7 +182,7 @@ static void add_views(const struct hard_case *lit, int n, int p, const struct sl
   double lowest = 1.01 * hard_height(slab, points) * lamp->scale + 2 * shadow_tolerance;
   for (int k = 0; k < lit->size * lit->size; ++k) {
     double at[3], local[3];
-    hard_pixel(lit, k, at);
+    chain_pixel(&lit->plane, lit->size, k, at);
     into(&standing, at, local);
     if (fabs(local[2]) < lowest || (lit->stated && !lit_there(&standing, slab, local)))
       sum->doubt[k] = INFINITY;
@@ -278,10 +256,10 @@ static void add_light(const struct hard_case *lit, const struct hard_lamp *lamp,
     for (int m = 0; m < nu * nv; ++m) {
       double at[3], from[3], away[3];
       double p = (m % nu + 0.5) / nu - 0.5, q = ((m / nu) + 0.5) / nv - 0.5;
-      hard_pixel(lit, k, at);
+      chain_pixel(&lit->plane, lit->size, k, at);
       for (int c = 0; c < 3; ++c) from[c] = places[0][c] + p * places[1][c] + q * places[2][c];
-      turn(lamp, from, away);
-      for (int c = 0; c < 3; ++c) away[c] = at[c] - lamp->scale * away[c] - lamp->matrix[9 + c];
+      move(lamp, from, away);
+      for (int c = 0; c < 3; ++c) away[c] = at[c] - away[c];
       double r = chain_length(away), cosine = chain_dot(away, axis) / (r * chain_length(axis));
       double weight =
           -chain_dot(away, lit->plane.normal) / r / nu / nv / M_PI * (size / r) * (size / r);
@@ -336,9 +314,9 @@ static void image_at(const struct picture *picture, const double direction[3], d
 static bool meets_sphere(const struct hard_lamp *lamp, const double numbers[12], double radius,
                          const double from[3], const double to[3]) {
   double center[3], way[3], relative[3];
-  turn(lamp, numbers + 9, center);
+  move(lamp, numbers + 9, center);
   for (int c = 0; c < 3; ++c) {
-    relative[c] = lamp->scale * center[c] + lamp->matrix[9 + c] - from[c];
+    relative[c] = center[c] - from[c];
     way[c] = to[c] - from[c];
   }
   double t = fmin(fmax(chain_dot(relative, way) / chain_dot(way, way), 0), 1);
@@ -355,11 +333,10 @@ static void add_point(const struct hard_case *lit, int n, const struct picture *
   const struct hard_lamp *lamp = &lit->lamps[n];
   double axes[3][3], center[3], width = numbers[12];
   for (int k = 0; k < 3; ++k) turn(lamp, numbers + 3 * k, axes[k]);
-  turn(lamp, numbers + 9, center);
-  for (int c = 0; c < 3; ++c) center[c] = lamp->scale * center[c] + lamp->matrix[9 + c];
+  move(lamp, numbers + 9, center);
   for (int k = 0; k < lit->size * lit->size; ++k) {
     double at[3], away[3], local[3], rgb[3];
-    hard_pixel(lit, k, at);
+    chain_pixel(&lit->plane, lit->size, k, at);
     for (int c = 0; c < 3; ++c) away[c] = at[c] - center[c];
     double r = chain_length(away), facing = -chain_dot(away, lit->plane.normal) / r;
     double radius = hard_radius(lamp, width);

@@ -27,7 +27,8 @@ static struct slab letter_lamp(const double u[3], const double v[3], double st_d
       double x = -1 + (s + 0.5) * 2 / samples[2], y = -1 + (t + 0.5) * 2 / samples[3];
       double value = letter_ink((x * u[0] + y * v[0]) / edge, (x * u[1] + y * v[1]) / edge);
       for (int view = 0; view < 4; ++view)
-        for (int c = 0; c < 3; ++c) chain_sample(&slab, view % 2, view / 2, s, t)[c] = (float)value;
+        for (int c = 0; c < 3; ++c)
+          oracle_sample(&slab, view % 2, view / 2, s, t)[c] = (float)value;
     }
   return slab;
 }
@@ -43,8 +44,7 @@ static void shine(const double u[3], const double v[3], double st_distance) {
 }
 
 /* All frames around +z whose axes are x and y: half of them have u x v = -n. */
-static void test_letter(void **state) {
-  (void)state;
+TEST(test_letter) {
   const double edge = 0.04;
   for (int k = 0; k < 8; ++k) {
     double u[3] = {0, 0, 0}, v[3] = {0, 0, 0};

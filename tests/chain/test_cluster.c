@@ -1,6 +1,5 @@
 /* test_cluster.c - POV-Ray lit by the area lights that were fitted to a slab, against
  * the direct sum of those lights and against the slab; and by its far field. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,34 +20,18 @@ static const double edges[2] = {1, 0.8}, window[4] = {-1.2, 1.5, -1.4, 1.1};
 /* A matt reflector around a soft bulb off its middle, bluer to one side. */
 static struct slab smooth_slab(double st_distance, int mirrored, uint64_t seed) {
   struct slab slab = chain_slab(samples, edges, window, st_distance, mirrored, seed);
-  for (int j = 0; j < samples[1]; ++j)
-    for (int i = 0; i < samples[0]; ++i)
-      for (int l = 0; l < samples[3]; ++l)
-        for (int k = 0; k < samples[2]; ++k) {
-          double a = slab_position(&slab, SLAB_U, i), b = slab_position(&slab, SLAB_V, j);
-          double s = slab_position(&slab, SLAB_S, k) - a / st_distance;
-          double t = slab_position(&slab, SLAB_T, l) - b / st_distance;
-          double x = a - 0.4 * s + 0.1, y = b - 0.4 * t;
-          double light = 1 + cos(3 * a) * cos(2 * b) + 5 * exp(-(x * x + y * y) / 0.1);
-          float *rgb = chain_sample(&slab, i, j, k, l);
-          for (int c = 0; c < 3; ++c) rgb[c] = (float)(light * (1 + 0.3 * s * (c - 1)));
-        }
+  for (size_t m = 0; m < slab_sample_count(&slab); ++m) {
+    int at[4];
+    double x[4];
+    slab_locate(&slab, m, at);
+    for (int axis = 0; axis < 4; ++axis) x[axis] = slab_position(&slab, axis, at[axis]);
+    double s = x[2] - x[0] / st_distance, p = x[0] - 0.4 * s + 0.1;
+    double q = x[1] - 0.4 * (x[3] - x[1] / st_distance);
+    double light = 1 + cos(3 * x[0]) * cos(2 * x[1]) + 5 * exp(-(p * p + q * q) / 0.1);
+    for (int c = 0; c < 3; ++c)
+      slab.rgb[3 * m + (size_t)c] = (float)(light * (1 + 0.3 * s * (c - 1)));
+  }
   return slab;
-}
-
-static struct chain_lamp lamp_of(const struct slab *pages, int count) {
-  struct chain_lamp lamp = {pages, count, 1, 1, {0}, 0};
-  memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
-  return lamp;
-}
-
-/* A point or (origin 0) a direction of lamp space, in the scene. */
-static void to_scene(const struct chain_lamp *lamp, const double x[3], double origin,
-                     double out[3]) {
-  for (int c = 0; c < 3; ++c)
-    out[c] = lamp->scale * (x[0] * lamp->matrix[c] + x[1] * lamp->matrix[3 + c] +
-                            x[2] * lamp->matrix[6 + c]) +
-             origin * lamp->matrix[9 + c];
 }
 
 /* (x, y) on the page, in widths, and z along its normal. */
@@ -80,13 +63,13 @@ static void add_light(const struct chain_lamp *lamp, const struct slab *slab,
   int nu = points(light->size[0], most), nv = points(light->size[1], most);
   double axis[3], place[3], width = fmax(chain_length(slab->u), chain_length(slab->v));
   from_page(slab, light->axis[0], light->axis[1], 1, 0, place);
-  to_scene(lamp, place, 0, axis);
+  chain_move(lamp->matrix, lamp->scale, place, 0, axis);
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i) {
       double p = (i + 0.5) / nu - 0.5, q = (j + 0.5) / nv - 0.5, away[3];
       from_page(slab, light->center[0] + p * light->edge[0][0] + q * light->edge[1][0],
                 light->center[1] + p * light->edge[0][1] + q * light->edge[1][1], 0, 1, place);
-      to_scene(lamp, place, 1, away);
+      chain_move(lamp->matrix, lamp->scale, place, 1, away);
       for (int c = 0; c < 3; ++c) away[c] = at[c] - away[c];
       double r = chain_length(away), facing = -chain_dot(away, normal) / r;
       double cosine = chain_dot(away, axis) / (r * chain_length(axis));
@@ -102,10 +85,7 @@ static void sum_lights(const struct chain_lamp *lamps, int count, const struct c
                        int most, const struct chain_plane *plane, double *rgb) {
   for (int k = 0; k < CHAIN_PIXELS; ++k) {
     double at[3], sum[3] = {0, 0, 0};
-    double x = (k % CHAIN_SIZE + 0.5) / CHAIN_SIZE - 0.5;
-    double y = ((k / CHAIN_SIZE) + 0.5) / CHAIN_SIZE - 0.5;
-    for (int c = 0; c < 3; ++c)
-      at[c] = plane->center[c] + x * plane->across[c] + y * plane->down[c];
+    chain_pixel(plane, CHAIN_SIZE, k, at);
     for (int n = 0; n < count; ++n)
       for (int p = 0; p < cluster->page_count; ++p)
         for (int l = 0; l < cluster->pages[p].count; ++l)
@@ -113,16 +93,6 @@ static void sum_lights(const struct chain_lamp *lamps, int count, const struct c
                     plane->normal, sum);
     for (int c = 0; c < 3; ++c) rgb[3 * k + c] = sum[c] / M_PI;
   }
-}
-
-static double render_against(const struct chain_plane *plane, const char *sdl,
-                             const double *direct) {
-  struct picture picture;
-  chain_scene(plane, sdl);
-  chain_render(&picture);
-  double rmse = chain_rmse(&picture, direct);
-  picture_free(&picture);
-  return rmse;
 }
 
 static struct cluster fit(const struct slab *pages, int count, int lights) {
@@ -136,7 +106,7 @@ static struct cluster fit(const struct slab *pages, int count, int lights) {
   return cluster;
 }
 
-/* The include of the lamps is what their fitted lights are. */
+/* The plane under the lamps' include is lit as by their fitted lights. */
 static void compare(const char *what, const struct chain_lamp *lamps, int count,
                     const struct cluster *cluster, int page, double distance) {
   static double direct[3 * CHAIN_PIXELS];
@@ -144,7 +114,7 @@ static void compare(const char *what, const struct chain_lamp *lamps, int count,
   struct chain_plane plane = chain_facing(&lamps[0], page, distance);
   chain_place_all(lamps, count, sdl, sizeof sdl);
   sum_lights(lamps, count, cluster, 1 << 20, &plane, direct);
-  double rmse = render_against(&plane, sdl, direct);
+  double rmse = chain_error_of(&plane, 1, sdl, direct);
   print_message("%-32s %.2g\n", what, rmse);
   if (!(rmse <= exact)) fail_msg("%s: relative RMSE %g", what, rmse);
 }
@@ -152,19 +122,16 @@ static void compare(const char *what, const struct chain_lamp *lamps, int count,
 /* The error that the header states holds. */
 static void compare_slab(const char *what, const struct slab *slab, double distance,
                          double stated) {
-  static double direct[3 * CHAIN_PIXELS];
   char sdl[1024];
-  struct chain_lamp lamp = lamp_of(slab, 1);
+  struct chain_lamp lamp = chain_lamp_of(slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, distance);
   chain_place_all(&lamp, 1, sdl, sizeof sdl);
-  chain_direct(&lamp, 1, &plane, direct);
-  double rmse = render_against(&plane, sdl, direct);
+  double rmse = chain_error(&lamp, 1, &plane, 1, sdl);
   print_message("%-32s %.3g, stated %.3g\n", what, rmse, stated);
   if (!(rmse <= slack * stated + more)) fail_msg("%s: %g, stated %g", what, rmse, stated);
 }
 
-static void test_lights(void **state) {
-  (void)state;
+TEST(test_lights) {
   static const struct {
     const char *what;
     double st_distance, distance;
@@ -177,7 +144,7 @@ static void test_lights(void **state) {
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
     struct slab slab = smooth_slab(cases[n].st_distance, cases[n].mirrored, 20);
     struct cluster cluster = fit(&slab, 1, cases[n].lights);
-    struct chain_lamp lamp = lamp_of(&slab, 1);
+    struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
     compare(cases[n].what, &lamp, 1, &cluster, 0, cases[n].distance);
     for (int k = 0; k < CLUSTER_DISTANCES && cases[n].lights > 1; ++k)
       compare_slab("  against the slab", &slab, cluster_distances[k], cluster.pages[0].error[k]);
@@ -189,24 +156,23 @@ static void test_lights(void **state) {
 
 /* Narrow beams and noise: a lobe between the receivers of the fit must not hide from the
  * error that is stated. */
-static void test_narrow(void **state) {
-  (void)state;
+TEST(test_narrow) {
   static const int fine[4] = {4, 4, 32, 32};
   static const double wide[4] = {-3, 3, -3, 3};
   struct slab slab = chain_slab(fine, edges, wide, INFINITY, 0, 26);
-  for (int j = 0; j < fine[1]; ++j)
-    for (int i = 0; i < fine[0]; ++i)
-      for (int l = 0; l < fine[3]; ++l)
-        for (int k = 0; k < fine[2]; ++k) {
-          double s = slab_position(&slab, SLAB_S, k), t = slab_position(&slab, SLAB_T, l);
-          double light = s * s + t * t < 1.4 ? 1 : 0.05;
-          for (int beam = 0; beam < 3; ++beam) {
-            double x = s - 0.9 + 0.7 * beam, y = t - 0.6 * beam * (beam - 1);
-            light += 4 * exp(-(x * x + y * y) / 0.02);
-          }
-          float *rgb = chain_sample(&slab, i, j, k, l); /* random */
-          for (int c = 0; c < 3; ++c) rgb[c] = (float)light * (1 + 0.2F * rgb[c]);
-        }
+  for (size_t m = 0; m < slab_sample_count(&slab); ++m) {
+    int at[4];
+    slab_locate(&slab, m, at);
+    double s = slab_position(&slab, SLAB_S, at[SLAB_S]),
+           t = slab_position(&slab, SLAB_T, at[SLAB_T]);
+    double light = s * s + t * t < 1.4 ? 1 : 0.05;
+    for (int beam = 0; beam < 3; ++beam) {
+      double x = s - 0.9 + 0.7 * beam, y = t - 0.6 * beam * (beam - 1);
+      light += 4 * exp(-(x * x + y * y) / 0.02);
+    }
+    float *rgb = slab.rgb + 3 * m; /* random */
+    for (int c = 0; c < 3; ++c) rgb[c] = (float)light * (1 + 0.2F * rgb[c]);
+  }
   struct cluster cluster = fit(&slab, 1, 8);
   for (int k = 1; k < CLUSTER_DISTANCES; ++k) /* nearer by, the slab's few views tell apart */
     compare_slab("narrow beams", &slab, cluster_distances[k], cluster.pages[0].error[k]);
@@ -214,8 +180,7 @@ static void test_narrow(void **state) {
   slab_free(&slab);
 }
 
-static void test_placed(void **state) {
-  (void)state;
+TEST(test_placed) {
   struct slab slab = smooth_slab(INFINITY, 0, 21);
   struct cluster cluster = fit(&slab, 1, 2);
   double c = cos(M_PI / 6), s = sin(M_PI / 6);
@@ -228,7 +193,7 @@ static void test_placed(void **state) {
   };
   struct chain_lamp lamps[2];
   for (size_t k = 0; k < 2; ++k) {
-    lamps[k] = lamp_of(&slab, 1);
+    lamps[k] = chain_lamp_of(&slab, 1, 1);
     lamps[k].scale = cases[k].scale;
     lamps[k].gain = cases[k].gain;
     memcpy(lamps[k].matrix, cases[k].matrix, sizeof cases[k].matrix);
@@ -242,8 +207,7 @@ static void test_placed(void **state) {
 }
 
 /* Pages of their own sizes, side by side; the smaller gets fewer lights. */
-static void test_pages(void **state) {
-  (void)state;
+TEST(test_pages) {
   struct slab pages[2] = {smooth_slab(INFINITY, 0, 22), smooth_slab(2, 1, 22)};
   for (int c = 0; c < 3; ++c) {
     pages[1].center[c] += pages[1].u[c];
@@ -251,7 +215,7 @@ static void test_pages(void **state) {
     pages[1].v[c] *= 0.5;
   }
   struct cluster cluster = fit(pages, 2, 3);
-  struct chain_lamp lamp = lamp_of(pages, 2);
+  struct chain_lamp lamp = chain_lamp_of(pages, 2, 1);
   assert_int_equal(cluster.page_count, 2);
   assert_true(cluster.pages[0].count > cluster.pages[1].count);
   assert_true(cluster_light_count(&cluster) <= 3);
@@ -262,57 +226,44 @@ static void test_pages(void **state) {
 }
 
 /* Fewer points, asked for in the scene. */
-static void test_fewer_points(void **state) {
-  (void)state;
+TEST(test_fewer_points) {
   static double direct[3 * CHAIN_PIXELS];
   struct slab slab = smooth_slab(INFINITY, 0, 23);
   struct cluster cluster = fit(&slab, 1, 1);
-  struct chain_lamp lamp = lamp_of(&slab, 1);
+  struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 0.8);
   for (int most = 1; most <= 2; ++most) {
     char sdl[1024];
     int length = snprintf(sdl, sizeof sdl, "#declare Test_Lamp_Lights = %d;\n", most);
     chain_place_all(&lamp, 1, sdl + length, sizeof sdl - (size_t)length);
     sum_lights(&lamp, 1, &cluster, most, &plane, direct);
-    assert_true(render_against(&plane, sdl, direct) < exact);
+    assert_true(chain_error_of(&plane, 1, sdl, direct) < exact);
   }
   cluster_free(&cluster);
   slab_free(&slab);
 }
 
-static void expect_stop(const struct slab *slab, const char *sdl, const char *text) {
-  struct chain_lamp lamp = lamp_of(slab, 1);
-  struct chain_plane plane = chain_facing(&lamp, 0, 1);
-  chain_scene(&plane, sdl);
-  assert_int_equal(chain_povray(), 1);
-  if (!strstr(chain_log(), text)) fail_msg("POV-Ray does not say \"%s\"", text);
-}
-
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   struct slab slab = smooth_slab(INFINITY, 0, 24);
   static const char *const modes[2] = {"cluster --lights 1", "point"};
   for (int m = 0; m < 2; ++m) {
     char options[64];
     snprintf(options, sizeof options, "--mode %s", modes[m]);
     chain_include(&slab, 1, "lamp", options);
-    expect_stop(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(0.0015, 1) }",
-                "Test_Lamp_Canned: too small for POV-Ray's shadow tolerance");
-    expect_stop(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(0, 1) }",
-                "Test_Lamp_Canned: Scale is 0.0000, must be positive");
+    chain_says(&slab, CHAIN_LIT("0.0015, 1"), 1,
+               "Test_Lamp_Canned: too small for POV-Ray's shadow tolerance");
+    chain_says(&slab, CHAIN_LIT("0, 1"), 1, "Test_Lamp_Canned: Scale is 0.0000, must be positive");
   }
   /* A sheet of the lamp's name is another lamp. */
   chain_include(&slab, 1, "sheet", "");
-  expect_stop(&slab, "#include \"lamp.inc\"\n#include \"sheet.inc\"",
-              "another lamp of this name is included already");
+  chain_says(&slab, "#include \"lamp.inc\"\n#include \"sheet.inc\"", 1,
+             "another lamp of this name is included already");
   slab_free(&slab);
 }
 
 /* The far field, from afar: within its stated error, whichever way it is turned; the
  * smallest Scale is right, too. */
-static void test_point(void **state) {
-  (void)state;
-  static double direct[3 * CHAIN_PIXELS];
+TEST(test_point) {
   static const double st_distances[2] = {INFINITY, 30};
   for (int d = 0; d < 2; ++d) {
     struct slab slab = smooth_slab(st_distances[d], d, 25);
@@ -321,15 +272,14 @@ static void test_point(void **state) {
     assert_int_equal(point_make(&slab, 1, 20, &point, NULL), RESULT_OK);
     compare_slab(d ? "point, st plane" : "point, infinite", &slab, 20, point.error_at);
     assert_true(point.error_at < 0.02);
-    struct chain_lamp lamp = lamp_of(&slab, 1);
+    struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
     const double mirrored[12] = {-0.6, 0.8, 0, 0.8, 0.6, 0, 0, 0, 1, 3, 1, 2};
     memcpy(lamp.matrix, mirrored, sizeof mirrored);
     lamp.scale = 0.0041;
     struct chain_plane plane = chain_facing(&lamp, 0, 20);
     char sdl[1024];
     chain_place_all(&lamp, 1, sdl, sizeof sdl);
-    chain_direct(&lamp, 1, &plane, direct);
-    double rmse = render_against(&plane, sdl, direct);
+    double rmse = chain_error(&lamp, 1, &plane, 1, sdl);
     print_message("%-32s %.3g\n", "  mirrored, Scale 0.0041", rmse);
     assert_true(rmse <= slack * point.error_at + more);
     point_free(&point);

@@ -51,8 +51,7 @@ static void project(const char *u, const char *v, double st_distance) {
   picture_free(&picture);
 }
 
-static void test_letter(void **state) {
-  (void)state;
+TEST(test_letter) {
   project("2*x", "2*y", 0);
   project("-2*x", "2*y", 0);
   project("2*y", "2*x", 250);
@@ -111,8 +110,7 @@ static double mean(const struct picture *picture) {
   return sum / CHAIN_PIXELS;
 }
 
-static void test_canned(void **state) {
-  (void)state;
+TEST(test_canned) {
   struct picture lamp, canned;
   remove(chain_path("lamp.pov"));
   write_file("lamp.pov", "%s", barred_lamp);
@@ -131,7 +129,7 @@ static void test_canned(void **state) {
    * this grid than a sphere does. The rest of the RMSE is the blur of 10 x 8 positions. */
   assert_true(fabs(ratio - 1) < 0.02);
   assert_true(error < 0.1);
-  /* Which a lamp would break that is mirrored, turned or off by a pixel (2 of 100 units). */
+  /* A lamp that is mirrored, turned or off by a pixel (2 of 100 units) would be farther off. */
   static const int wrong[][3] = {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (int k = 0; k < 5; ++k) {
     double off = difference(&lamp, &canned, wrong[k][0], wrong[k][1], wrong[k][2]);

@@ -56,13 +56,7 @@ static const struct setting settings[] = {
 /* Renders the lamps onto the plane and holds the picture against the sum. */
 static void compare(const char *what, const struct chain_lamp *lamps, int count,
                     const struct chain_plane *plane, const char *sdl) {
-  static double direct[3 * CHAIN_PIXELS];
-  struct picture picture;
-  chain_scene(plane, sdl);
-  chain_render(&picture);
-  chain_direct(lamps, count, plane, direct);
-  double rmse = chain_rmse(&picture, direct);
-  picture_free(&picture);
+  double rmse = chain_error(lamps, count, plane, 1, sdl);
   print_message("%-32s %.2g\n", what, rmse);
   if (!(rmse <= tolerance)) fail_msg("%s: relative RMSE %g", what, rmse);
 }
@@ -70,8 +64,8 @@ static void compare(const char *what, const struct chain_lamp *lamps, int count,
 static void compare_setting(const struct setting *setting, uint64_t seed) {
   struct slab slab = chain_slab(setting->samples, setting->edges, setting->window,
                                 setting->st_distance, setting->mirrored, seed);
-  struct chain_lamp lamp = {&slab, 1, setting->scale, setting->gain, {0}, 0};
-  memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
+  struct chain_lamp lamp = chain_lamp_of(&slab, 1, setting->scale);
+  lamp.gain = setting->gain;
   struct chain_plane plane = chain_facing(&lamp, 0, setting->distance);
   char sdl[1024];
   chain_place_all(&lamp, 1, sdl, sizeof sdl);
@@ -80,8 +74,7 @@ static void compare_setting(const struct setting *setting, uint64_t seed) {
   slab_free(&slab);
 }
 
-static void test_settings(void **state) {
-  (void)state;
+TEST(test_settings) {
   for (size_t k = 0; k < sizeof settings / sizeof *settings; ++k)
     compare_setting(&settings[k], 100 + k);
 }
@@ -94,8 +87,7 @@ static struct slab small_slab(double st_distance, uint64_t seed) {
 }
 
 /* Lamps placed with POV-Ray's own words, which the test spells as a matrix. */
-static void test_words(void **state) {
-  (void)state;
+TEST(test_words) {
   struct slab slab = small_slab(INFINITY, 1);
   double c = cos(M_PI / 6), s = sin(M_PI / 6);
   const struct {
@@ -111,7 +103,7 @@ static void test_words(void **state) {
   };
   chain_include(&slab, 1, "lamp", "");
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
-    struct chain_lamp lamp = {&slab, 1, 1, 1, {0}, 0};
+    struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
     memcpy(lamp.matrix, cases[k].matrix, sizeof lamp.matrix);
     struct chain_plane plane = chain_facing(&lamp, 0, 1.5);
     char sdl[256];
@@ -123,11 +115,10 @@ static void test_words(void **state) {
 }
 
 /* Two lamps side by side, also as copies of one declared object. */
-static void test_instances(void **state) {
-  (void)state;
+TEST(test_instances) {
   struct slab slab = small_slab(2, 2);
-  struct chain_lamp lamps[2] = {{&slab, 1, 1, 1, {0}, 0}, {&slab, 1, 1, 0.5, {0}, 0}};
-  for (int k = 0; k < 2; ++k) memcpy(lamps[k].matrix, chain_identity, sizeof lamps[k].matrix);
+  struct chain_lamp lamps[2] = {chain_lamp_of(&slab, 1, 1), chain_lamp_of(&slab, 1, 1)};
+  lamps[1].gain = 0.5;
   for (int c = 0; c < 3; ++c) lamps[1].matrix[9 + c] = 1.1 * slab.u[c] + 0.4 * slab.v[c];
   struct chain_plane plane = chain_facing(&lamps[0], 0, 1);
   char sdl[2048];
@@ -145,15 +136,14 @@ static void test_instances(void **state) {
 
 /* A lamp behind another, then one that looks into its side: the front lamp's
  * case, not its sheet, is what their light meets. */
-static void test_case(void **state) {
-  (void)state;
+TEST(test_case) {
   const int samples[4] = {3, 3, 8, 8};
   const double edges[2] = {1, 1}, window[4] = {-1, 1, -1, 1};
   struct slab slab = chain_slab(samples, edges, window, INFINITY, 0, 8);
   double height = (1.0 / 3) / (2.0 / 8 * (8 + 2)); /* tiles of 10 x 10 texels meet there */
-  struct chain_lamp lamps[2] = {{&slab, 1, 1, 1, {0}, height}, {&slab, 1, 1, 1, {0}, 0}};
+  struct chain_lamp lamps[2] = {chain_lamp_of(&slab, 1, 1), chain_lamp_of(&slab, 1, 1)};
+  lamps[0].case_height = height;
   const double away[2][3] = {{0.1, 0.2, -0.8}, {1.2, 0.1, -0.3}};
-  for (int k = 0; k < 2; ++k) memcpy(lamps[k].matrix, chain_identity, sizeof lamps[k].matrix);
   struct chain_plane plane = chain_facing(&lamps[0], 0, 1);
   char sdl[2048];
   chain_include(&slab, 1, "lamp", "");
@@ -168,11 +158,9 @@ static void test_case(void **state) {
 }
 
 /* Two pages of one lamp in one aperture plane, back to back, then side by side. */
-static void test_pages(void **state) {
-  (void)state;
+TEST(test_pages) {
   struct slab pages[2] = {small_slab(INFINITY, 3), small_slab(3, 4)};
-  struct chain_lamp lamp = {pages, 2, 0.8, 1, {0}, 0};
-  memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
+  struct chain_lamp lamp = chain_lamp_of(pages, 2, 0.8);
   char sdl[1024];
   chain_place_all(&lamp, 1, sdl, sizeof sdl);
   for (int c = 0; c < 3; ++c) {
@@ -198,8 +186,7 @@ static void test_pages(void **state) {
 }
 
 /* Fewer lights, asked for in the scene or on the command line. */
-static void test_lights(void **state) {
-  (void)state;
+TEST(test_lights) {
   const struct {
     const char *what, *options, *declare;
     int lights[2];
@@ -213,8 +200,7 @@ static void test_lights(void **state) {
   struct slab slab = chain_slab(samples, small_edges, small_window, 2, 0, 5);
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     struct slab means = chain_means(&slab, cases[k].lights[0], cases[k].lights[1]);
-    struct chain_lamp lamp = {&means, 1, 1, 1, {0}, 0};
-    memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
+    struct chain_lamp lamp = chain_lamp_of(&means, 1, 1);
     struct chain_plane plane = chain_facing(&lamp, 0, 1);
     char sdl[1024];
     snprintf(sdl, sizeof sdl, "%s#include \"lamp.inc\"\n", cases[k].declare);
@@ -227,16 +213,14 @@ static void test_lights(void **state) {
 }
 
 /* Views without any light have no lights, and nothing else changes. */
-static void test_black_views(void **state) {
-  (void)state;
+TEST(test_black_views) {
   struct slab slab = small_slab(INFINITY, 6);
   for (int j = 0; j < slab.samples[1]; ++j)
     for (int i = j == 1 ? 0 : 2; i < slab.samples[0]; ++i)
       for (int l = 0; l < slab.samples[3]; ++l)
         for (int k = 0; k < slab.samples[2]; ++k)
-          memset(chain_sample(&slab, i, j, k, l), 0, 3 * sizeof(float));
-  struct chain_lamp lamp = {&slab, 1, 1, 1, {0}, 0};
-  memcpy(lamp.matrix, chain_identity, sizeof lamp.matrix);
+          memset(oracle_sample(&slab, i, j, k, l), 0, 3 * sizeof(float));
+  struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
   char sdl[1024];
   chain_place_all(&lamp, 1, sdl, sizeof sdl);

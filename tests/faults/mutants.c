@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include "file/slab_file.h"
+#include "oracle/random.h"
 
 enum { LARGEST = 1 << 16, MOST_SAMPLES = 1 << 20, SECONDS = 20 };
 static const rlim_t memory = (rlim_t)1 << 30;
@@ -31,18 +32,14 @@ struct base {
 
 /* Shared with the children. */
 struct tally {
-  long reached; /* the mutant in hand */
+  long reached; /* the mutant that is being read */
   long accepted, refused;
 };
 
 static uint64_t random_state;
 
-/* splitmix64 */
 static uint64_t draw(uint64_t below) {
-  uint64_t z = random_state += 0x9e3779b97f4a7c15;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-  z = (z ^ z >> 27) * 0x94d049bb133111eb;
-  return (z ^ z >> 31) % below;
+  return random_bits(&random_state) % below;
 }
 
 /* One change; half of them in the first part, where the headers are. */

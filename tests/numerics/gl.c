@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "numerics.h"
 
 static const double allowed = 1e-5, holds = 1e-3, tolerance = 1e-3;
@@ -22,18 +23,14 @@ bool gl_is_here(const char **why) {
 
 /* Lengths of 1e-15 to 1e15 it must take. */
 static bool must_take(const struct slab *slab) {
-  double edges[2] = {0};
-  for (int c = 0; c < 3; ++c) {
-    edges[0] = hypot(edges[0], slab->u[c]);
-    edges[1] = hypot(edges[1], slab->v[c]);
-  }
-  return fmin(edges[0], edges[1]) > 1.01e-15 && fmax(edges[0], edges[1]) < 0.99e15;
+  double u = vector_length(slab->u), v = vector_length(slab->v);
+  return fmin(u, v) > 1.01e-15 && fmax(u, v) < 0.99e15;
 }
 
-bool lamp_sum_gl(struct lamp *lamp, const struct test_receiver *from, double rgb[3]) {
+bool lamp_sum_gl(struct lamp *lamp, const struct surfel *from, double rgb[3]) {
   struct error error = {{0}};
   const struct gl_sum_settings settings = {.lights = &lamp->light, .light_count = 1};
-  const struct receiver receiver = lamp_receiver(from);
+  const struct receiver receiver = receiver_at(from);
   struct gathered got;
   if (!gl_is_here(NULL)) return false;
   if (!lamp->gl && gl_gather_create(&settings, &lamp->gl, &error) != RESULT_OK) {
@@ -47,8 +44,7 @@ bool lamp_sum_gl(struct lamp *lamp, const struct test_receiver *from, double rgb
   return true;
 }
 
-bool lamp_sum_any(struct lamp *lamp, int method, const struct test_receiver *receiver,
-                  double rgb[3]) {
+bool lamp_sum_any(struct lamp *lamp, int method, const struct surfel *receiver, double rgb[3]) {
   struct gathered got;
   if (method == GATHER_GL) return lamp_sum_gl(lamp, receiver, rgb);
   lamp_sum(lamp, (enum gather_method)method, tolerance, receiver, &got, NULL);
@@ -61,7 +57,7 @@ struct views {
   double sum[3], most, spread;
 };
 
-static struct views sum_views(const struct slab *slab, const struct test_receiver *receiver) {
+static struct views sum_views(const struct slab *slab, const struct surfel *receiver) {
   struct oracle_place place;
   long double sum[3] = {0}, most[3] = {0}, spread[3] = {0}, light[3], change[3];
   struct views views = {{0}, 0, 0};
@@ -77,30 +73,31 @@ static struct views sum_views(const struct slab *slab, const struct test_receive
     }
   for (int c = 0; c < 3; ++c) {
     views.sum[c] = (double)sum[c];
-    views.most = fmax(views.most, (double)most[c]);
-    views.spread = fmax(views.spread, (double)spread[c]);
+    views.most = larger(views.most, (double)most[c]);
+    views.spread = larger(views.spread, (double)spread[c]);
   }
   return views;
 }
 
 /* What is allowed, relative to the light. */
 static double find_allowed(const struct lamp *lamp, const struct views *views, double *most) {
+  if (isnan(views->most + views->spread)) fail_msg("the sum over views has no number");
   *most = fmax(fmax(views->most, NUMERICS_DARK * lamp->hemisphere), 1e-300);
   return views->spread <= holds * *most && isfinite(*most) ? allowed + views->spread / *most
                                                            : INFINITY;
 }
 
-double gl_allowed(const struct lamp *lamp, const struct test_receiver *receiver) {
+double gl_allowed(const struct lamp *lamp, const struct surfel *receiver) {
   const struct views views = sum_views(&lamp->slab, receiver);
   double most;
   return find_allowed(lamp, &views, &most);
 }
 
-double gl_error(struct lamp *lamp, const struct test_receiver *receiver) {
+double gl_error(struct lamp *lamp, const struct surfel *receiver) {
   const struct views views = sum_views(&lamp->slab, receiver);
   double rgb[3], off = 0, most;
   if (isinf(find_allowed(lamp, &views, &most)) || !lamp_sum_gl(lamp, receiver, rgb)) return 0;
-  for (int c = 0; c < 3; ++c) off = fmax(off, fabs(rgb[c] - views.sum[c]));
+  for (int c = 0; c < 3; ++c) off = larger(off, fabs(rgb[c] - views.sum[c]));
   return off / most;
 }
 
@@ -111,7 +108,7 @@ static void hold(struct trial *trial, const struct lamp *lamp, enum gather_metho
   bool never = false;
   for (int c = 0; c < 3; ++c) {
     if (!isfinite(rgb[c]) || (rgb[c] < 0 && lamp->positive)) never = true;
-    off = fmax(off, fabs(rgb[c] - views->sum[c]));
+    off = larger(off, fabs(rgb[c] - views->sum[c]));
   }
   trial_note(trial, method, never ? NAN : isinf(may) ? 0 : off / most, may);
   if (trial->verbose)
@@ -120,8 +117,7 @@ static void hold(struct trial *trial, const struct lamp *lamp, enum gather_metho
            views->sum[2], views->spread / most);
 }
 
-void trial_hold_views(struct trial *trial, struct lamp *lamp,
-                      const struct test_receiver *receiver) {
+void trial_hold_views(struct trial *trial, struct lamp *lamp, const struct surfel *receiver) {
   const struct views views = sum_views(&lamp->slab, receiver);
   double rgb[3];
   lamp_sum_any(lamp, GATHER_VIEWS, receiver, rgb);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "numerics.h"
 
 enum { DISTANCE, GRAZING_RECEIVER, GRAZING_LAMP, ASPECT, ST_DISTANCE, PEAK, RANGE, OFFSET };
@@ -29,7 +30,7 @@ static bool asks(enum gather_method method) {
 
 struct path {
   int axis;
-  uint32_t seed;
+  uint64_t seed;
 };
 
 /* The samples at `lit` shine on the receiver. */
@@ -41,12 +42,12 @@ static void set_samples(struct slab *slab, int axis, double x, const int lit[SLA
   if (axis == PEAK) slab_at(slab, lit[0], lit[1], lit[2], lit[3])[1] = 1;
 }
 
-static struct test_receiver place_receiver(struct trial *draws, const struct slab *slab, double z,
-                                           const int lit[SLAB_AXES], double angle) {
-  struct test_receiver at;
-  double from[3], to_light[3], a[2], p[2], length = 0;
+static struct surfel place_receiver(uint64_t *draws, const struct slab *slab, double z,
+                                    const int lit[SLAB_AXES], double angle) {
+  struct surfel at;
+  double from[3], to_light[3], a[2], p[2];
   for (int axis = 0; axis < 2; ++axis) {
-    const double beside[2] = {trial_random(draws, -0.4, 0.4), trial_random(draws, -0.4, 0.4)};
+    const double beside[2] = {random_between(draws, -0.4, 0.4), random_between(draws, -0.4, 0.4)};
     a[axis] = slab_position(slab, axis, lit[axis]) + beside[0] * slab_spacing(slab, axis);
     const double s =
         slab_position(slab, 2 + axis, lit[2 + axis]) + beside[1] * slab_spacing(slab, 2 + axis);
@@ -54,31 +55,30 @@ static struct test_receiver place_receiver(struct trial *draws, const struct sla
   }
   slab_point(slab, a[0], a[1], 0, from);
   slab_point(slab, p[0], p[1], z, at.p);
-  for (int c = 0; c < 3; ++c) to_light[c] = from[c] - at.p[c];
-  for (int c = 0; c < 3; ++c) length = hypot(length, to_light[c]);
-  for (int c = 0; c < 3; ++c) to_light[c] /= length;
-  random_direction(&draws->seed, at.n);
+  vector_subtract(from, at.p, to_light);
+  vector_normalise(to_light);
+  random_direction(draws, at.n);
   turn_towards(&at, to_light, angle);
   return at;
 }
 
 /* The same random numbers wherever on the path. */
-static void place(const struct path *path, double x, struct slab *slab, struct test_receiver *at) {
+static void place(const struct path *path, double x, struct slab *slab, struct surfel *at) {
   static const int grid[SLAB_AXES] = {4, 3, 6, 5};
-  struct trial draws = {.seed = path->seed};
-  const int axis = path->axis, frame = trial_choose(&draws, 3);
+  uint64_t draws = path->seed;
+  const int axis = path->axis, frame = random_choose(&draws, 3);
   const double hard = pow(10, x), slope = axis == GRAZING_LAMP ? hard : 1;
   const double window[4] = {-0.7 * slope, 1.1 * slope, -0.9 * slope, 0.6 * slope};
-  double z = trial_random_log(&draws, 0.3, 10), angle = trial_random(&draws, 0.5, 1.5);
-  double distance = trial_random_log(&draws, 0.3, 10);
+  double z = random_log(&draws, 0.3, 10), angle = random_between(&draws, 0.5, 1.5);
+  double distance = random_log(&draws, 0.3, 10);
   int lit[SLAB_AXES];
-  if (trial_choose(&draws, 2) || axis == GRAZING_LAMP) distance = INFINITY;
+  if (random_choose(&draws, 2) || axis == GRAZING_LAMP) distance = INFINITY;
   if (axis == ST_DISTANCE) distance = hard;
   if (axis == DISTANCE) z = hard;
   if (axis == GRAZING_LAMP) z /= slope;
   if (axis == GRAZING_RECEIVER) angle = acos(-1) / 2 / hard;
   *slab = rough_slab(grid, distance, window, (enum frame)frame, FILL_UNIFORM, path->seed);
-  for (int k = 0; k < SLAB_AXES; ++k) lit[k] = trial_choose(&draws, grid[k]);
+  for (int k = 0; k < SLAB_AXES; ++k) lit[k] = random_choose(&draws, grid[k]);
   set_samples(slab, axis, x, lit);
   for (int c = 0; c < 3 && axis == ASPECT; ++c) slab->u[c] /= hard;
   for (int c = 0; c < 3 && axis == OFFSET; ++c) slab->center[c] = (c + 1) * hard;
@@ -100,7 +100,7 @@ static double allowed(int which, const struct step *a, const struct step *b) {
   return a->above && b->above ? 1e-5 : fmax(a->predicted[which], b->predicted[which]);
 }
 
-static bool is_above(const struct slab *slab, const struct test_receiver *at) {
+static bool is_above(const struct slab *slab, const struct surfel *at) {
   for (int corner = 0; corner < 4; ++corner) {
     double height = 0;
     for (int c = 0; c < 3; ++c)
@@ -113,7 +113,7 @@ static bool is_above(const struct slab *slab, const struct test_receiver *at) {
 
 static void take(const struct path *path, double x, int only, bool gl, struct step *step) {
   struct slab slab;
-  struct test_receiver at;
+  struct surfel at;
   struct lamp lamp;
   place(path, x, &slab, &at);
   lamp_open(&lamp, &slab);
@@ -173,14 +173,14 @@ static void add_worst(const struct path *path, const struct step *step, struct g
   double *worst = growth->worst[path->axis][bin];
   for (int k = 0; k < FOLLOWED; ++k)
     for (int c = 0; c < 3; ++c)
-      worst[followed[k]] = fmax(worst[followed[k]], fabs(step->error[k][c]));
-  worst[GATHER_GL] = fmax(worst[GATHER_GL], step->gl);
+      worst[followed[k]] = larger(worst[followed[k]], fabs(step->error[k][c]));
+  worst[GATHER_GL] = larger(worst[GATHER_GL], step->gl);
 }
 
 void row_growth(struct trial *trial) {
   const struct path path = {(int)(trial->start % GROWTH_AXES), trial->seed};
   const struct growth_axis *axis = &growth_axes[path.axis];
-  const double phase = trial_random(trial, 0, 1);
+  const double phase = random_between(&trial->seed, 0, 1);
   static struct step steps[STEPS];
   for (int k = 0; k < STEPS; ++k) {
     take(&path, axis->low + (axis->high - axis->low) * (k + phase) / STEPS, -1, trial->growth,
@@ -206,5 +206,5 @@ void growth_merge(const struct growth *from, struct growth *to) {
   for (int axis = 0; axis < GROWTH_AXES; ++axis)
     for (int bin = 0; bin < GROWTH_BINS; ++bin)
       for (int k = 0; k < NUMERICS_METHODS; ++k)
-        to->worst[axis][bin][k] = fmax(to->worst[axis][bin][k], from->worst[axis][bin][k]);
+        to->worst[axis][bin][k] = larger(to->worst[axis][bin][k], from->worst[axis][bin][k]);
 }

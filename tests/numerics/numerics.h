@@ -17,14 +17,11 @@
 #ifndef NUMERICS_H
 #define NUMERICS_H
 
-#define receiver test_receiver /* receiver.h has another */
-#include "render/helpers.h"
-#undef receiver
 #include <stdio.h>
 
-#include "gather/gather.h"
 #include "gl/gl_gather.h"
-#include "render/oracle.h"
+#include "oracle/oracle.h"
+#include "render/helpers.h"
 
 /* All of gather.h, gl the last. */
 enum { NUMERICS_ROWS_MAX = 40, NUMERICS_METHODS = GATHER_GL + 1 };
@@ -43,7 +40,8 @@ struct tally {
 
 /* One seed of a row. */
 struct trial {
-  uint32_t seed, start;  /* the random numbers' next; what it began with */
+  uint64_t seed;         /* the random numbers' next */
+  uint32_t start;        /* what it began with */
   struct tally *tally;   /* [NUMERICS_METHODS] */
   bool verbose;          /* print what is not allowed */
   struct growth *growth; /* NULL: not wanted */
@@ -60,9 +58,8 @@ extern const int numerics_row_count;
 /* Notes an error of a method, and what is allowed: INFINITY for no claim. */
 void trial_note(struct trial *trial, enum gather_method method, double error, double allowed);
 
-double trial_random(struct trial *trial, double low, double high);     /* evenly */
-double trial_random_log(struct trial *trial, double low, double high); /* in the logarithm */
-int trial_choose(struct trial *trial, int count);
+/* Of the st plane: infinity as often as 0.3 to 10. */
+double trial_distance(struct trial *trial);
 
 /* A slab as the program loads it. */
 struct lamp {
@@ -78,53 +75,48 @@ void lamp_open(struct lamp *lamp, const struct slab *slab); /* takes the slab ov
 void lamp_close(struct lamp *lamp);
 /* Counts: NULL allowed. Not for gl. */
 void lamp_sum(const struct lamp *lamp, enum gather_method method, double tolerance,
-              const struct test_receiver *receiver, struct gathered *gathered,
+              const struct surfel *receiver, struct gathered *gathered,
               struct gather_counts *counts);
 
-/* By the method paper. */
-void lamp_sum_random(const struct lamp *lamp, uint64_t seed, const struct test_receiver *receiver,
-                     struct gathered *gathered);
-
-struct receiver lamp_receiver(const struct test_receiver *from);
-/* Of the settings those that are no lamp's: method, tolerance, occlusion. */
-void lamp_sum_many(const struct lamp *lamp, const struct gather_settings *settings,
-                   const struct receiver *receivers, int count, struct gathered *gathered);
+/* Of the settings those that are no lamp's: method, tolerance, seed, occlusion. */
+struct gather_counts lamp_sum_many(const struct lamp *lamp, const struct gather_settings *settings,
+                                   const struct receiver *receivers, int count,
+                                   struct gathered *gathered);
 
 /* ---- gl.c */
 
 /* Is there OpenGL, for this process? If not, `why` says what is missing. */
 bool gl_is_here(const char **why);
 /* False where there is none, or it refuses the lamp's lengths, as it should. */
-bool lamp_sum_gl(struct lamp *lamp, const struct test_receiver *receiver, double rgb[3]);
+bool lamp_sum_gl(struct lamp *lamp, const struct surfel *receiver, double rgb[3]);
 /* What they may err relative to the light: INFINITY where nothing is claimed. */
-double gl_allowed(const struct lamp *lamp, const struct test_receiver *receiver);
+double gl_allowed(const struct lamp *lamp, const struct surfel *receiver);
 /* The error of gl relative to the light; 0 where nothing is claimed. */
-double gl_error(struct lamp *lamp, const struct test_receiver *receiver);
+double gl_error(struct lamp *lamp, const struct surfel *receiver);
 /* Holds views and gl against the sum over views. */
-void trial_hold_views(struct trial *trial, struct lamp *lamp, const struct test_receiver *receiver);
+void trial_hold_views(struct trial *trial, struct lamp *lamp, const struct surfel *receiver);
 
 /* By any method, its tolerance 1e-3: false as lamp_sum_gl. */
-bool lamp_sum_any(struct lamp *lamp, int method, const struct test_receiver *receiver,
-                  double rgb[3]);
+bool lamp_sum_any(struct lamp *lamp, int method, const struct surfel *receiver, double rgb[3]);
 
 /* ---- */
 
 /* Holds all methods against the oracle. */
-void trial_hold(struct trial *trial, struct lamp *lamp, const struct test_receiver *receiver);
+void trial_hold(struct trial *trial, struct lamp *lamp, const struct surfel *receiver);
 /* Or against values of another one. */
-void trial_hold_value(struct trial *trial, const struct lamp *lamp,
-                      const struct test_receiver *receiver, const struct oracle_value *exact);
+void trial_hold_value(struct trial *trial, const struct lamp *lamp, const struct surfel *receiver,
+                      const struct oracle_value *exact);
 
 /* A receiver and what it should get. */
 struct look {
   const struct lamp *lamp;
-  const struct test_receiver *receiver;
+  const struct surfel *receiver;
   const struct oracle_value *exact;
   double height;
   double spread[3]; /* oracle_spread's, if has_spread */
   bool has_spread;
 };
-struct look look_at(const struct lamp *lamp, const struct test_receiver *receiver,
+struct look look_at(const struct lamp *lamp, const struct surfel *receiver,
                     const struct oracle_value *exact);
 /* Errors of the channels, as said above, with their signs. Returns the largest; NAN for what must
  * never be. */
@@ -132,10 +124,10 @@ double look_error(struct look *look, enum gather_method method, const double rgb
                   double error[3]);
 
 /* Turns the receiver so that the light, a unit vector, comes in at this angle over its horizon. */
-void turn_towards(struct test_receiver *receiver, const double to_light[3], double angle);
+void turn_towards(struct surfel *receiver, const double to_light[3], double angle);
 
 /* What rounding the receiver can change, in each channel. */
-void oracle_spread(const struct slab *slab, const struct test_receiver *receiver, double spread[3]);
+void oracle_spread(const struct slab *slab, const struct surfel *receiver, double spread[3]);
 
 /* The methods that a row asks for when all behave alike: their tolerance in rounding alone. */
 double method_rounding(enum gather_method method);

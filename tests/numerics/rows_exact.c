@@ -1,6 +1,5 @@
 /* rows_exact.c - cases with exact answers: Lambert's formula, tables by mpmath, exact rationals;
  * and the rules' own definitions. */
-#include <gmp.h>
 #include <math.h>
 #include <string.h>
 
@@ -12,23 +11,18 @@
 static const int grid[SLAB_AXES] = {4, 3, 6, 5};
 static const double ordinary[4] = {-0.7, 1.1, -0.9, 0.6};
 
-static double any_distance(struct trial *trial) {
-  double finite = trial_random_log(trial, 0.3, 10);
-  return trial_choose(trial, 2) ? INFINITY : finite;
-}
-
 /* ---- Radiance 1: Lambert's polygon formula, which has few digits left for little light. */
 
 void row_constant(struct trial *trial) {
-  enum frame frame = (enum frame)trial_choose(trial, 3);
+  enum frame frame = (enum frame)random_choose(&trial->seed, 3);
   struct slab slab =
-      rough_slab(grid, any_distance(trial), ordinary, frame, FILL_CONSTANT, trial->seed);
+      rough_slab(grid, trial_distance(trial), ordinary, frame, FILL_CONSTANT, trial->seed);
   struct lamp lamp;
   lamp_open(&lamp, &slab);
   for (int k = 0; k < 8; ++k) {
-    double z = trial_random_log(trial, 1e-3, 1e3);
-    struct test_receiver receiver = aimed_receiver(
-        &slab, z, (enum receiver_kind)trial_choose(trial, RECEIVER_KINDS), &trial->seed);
+    double z = random_log(&trial->seed, 1e-3, 1e3);
+    struct surfel receiver = aimed_receiver(
+        &slab, z, (enum receiver_kind)random_choose(&trial->seed, RECEIVER_KINDS), &trial->seed);
     long double exact = oracle_lambert(&slab, receiver.p, receiver.n);
     if (exact > 0 && exact < 1e-9L) continue;
     struct oracle_value value = {{exact, exact, exact}, {exact, exact, exact}, 0};
@@ -61,7 +55,7 @@ void row_mpmath(struct trial *trial) {
   const struct entry *entry = &table[trial->start % (sizeof table / sizeof table[0])];
   struct slab slab = rough_slab(entry->samples, entry->distance > 0 ? entry->distance : INFINITY,
                                 entry->window, FRAME_PLAIN, FILL_CONSTANT, 0);
-  struct test_receiver receiver;
+  struct surfel receiver;
   struct oracle_value exact = {{0}, {0}, 0};
   struct lamp lamp;
   slab.u[0] = entry->length[0];
@@ -100,7 +94,7 @@ static void add_products(struct products *products, const int near[2], const int
 static struct products exact_products(const struct slab *slab, const double p[3], int which) {
   static struct oracle_axis axis;
   struct products products = {{{0}}, 0};
-  oracle_axis(slab, p, which, &axis);
+  oracle_axis_find(slab, p, which, &axis);
   for (int k = 0; k < axis.count; ++k) {
     const struct oracle_piece *piece = &axis.piece[k];
     const long double *f = piece->uv_at, *g = piece->st_at, w = piece->width;
@@ -138,20 +132,21 @@ static struct products found_products(const struct light_axis *axis, double q, d
 static double off(const struct products *a, const struct products *b) {
   double worst = fabs(a->all - b->all);
   for (int i = 0; i < 8; ++i)
-    for (int k = 0; k < 8; ++k) worst = fmax(worst, fabs(a->of[i][k] - b->of[i][k]));
+    for (int k = 0; k < 8; ++k) worst = larger(worst, fabs(a->of[i][k] - b->of[i][k]));
   return worst;
 }
 
 /* Lines of uv and st, merged; each hat function's part in it. All rules but the midpoint integrate
  * products of hats exactly. What rounding the receiver could do is taken off. */
 void row_strips(struct trial *trial) {
-  const double distance = trial_choose(trial, 2) ? INFINITY : trial_random_log(trial, 1e-3, 1e3);
+  const double distance =
+      random_choose(&trial->seed, 2) ? INFINITY : random_log(&trial->seed, 1e-3, 1e3);
   struct slab slab = rough_slab(grid, distance, ordinary, FRAME_PLAIN, FILL_CONSTANT, 0);
   struct lamp lamp;
   lamp_open(&lamp, &slab);
   for (int k = 0; k < 40; ++k) {
-    const double z = trial_random_log(trial, 1e-12, 1e12);
-    const struct test_receiver at = aimed_receiver(&slab, z, RECEIVER_FACING, &trial->seed);
+    const double z = random_log(&trial->seed, 1e-12, 1e12);
+    const struct surfel at = aimed_receiver(&slab, z, RECEIVER_FACING, &trial->seed);
     const int which = k % 2;
     const struct products exact = exact_products(&slab, at.p, which);
     for (int rule = RULE_PI; rule <= RULE_GAUSS; ++rule) {
@@ -162,7 +157,7 @@ void row_strips(struct trial *trial) {
         double p[3] = {at.p[0], at.p[1], at.p[2]};
         p[side & 1 ? 2 : which] *= side & 2 ? 1 + 1e-15 : 1 - 1e-15;
         const struct products moved = exact_products(&slab, p, which);
-        error = fmax(0, error - off(&moved, &exact));
+        error = larger(0, error - off(&moved, &exact));
       }
       if (error > 0) error /= exact.all;
       trial_note(trial, rule == RULE_PI ? GATHER_PI : GATHER_REFERENCE, error, 1e-13);
@@ -193,10 +188,10 @@ static long double radiance(const struct slab *slab, const struct oracle_piece *
 }
 
 /* False where the tangent plane is near: there other rules take part. */
-static bool single(const struct slab *slab, const struct test_receiver *at, bool means,
+static bool single(const struct slab *slab, const struct surfel *at, bool means,
                    long double rgb[3]) {
   static struct oracle_axis axes[2];
-  for (int axis = 0; axis < 2; ++axis) oracle_axis(slab, at->p, axis, &axes[axis]);
+  for (int axis = 0; axis < 2; ++axis) oracle_axis_find(slab, at->p, axis, &axes[axis]);
   for (int c = 0; c < 3; ++c) rgb[c] = 0;
   for (int i = 0; i < axes[0].count; ++i)
     for (int j = 0; j < axes[1].count; ++j) {
@@ -213,12 +208,12 @@ static bool single(const struct slab *slab, const struct test_receiver *at, bool
 
 void row_single(struct trial *trial) {
   struct slab slab =
-      rough_slab(grid, any_distance(trial), ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
+      rough_slab(grid, trial_distance(trial), ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
   struct lamp lamp;
   lamp_open(&lamp, &slab);
   for (int k = 0; k < 20; ++k) {
-    const double z = trial_random_log(trial, 1e-6, 1e6);
-    const struct test_receiver at = aimed_receiver(&slab, z, RECEIVER_GENERAL, &trial->seed);
+    const double z = random_log(&trial->seed, 1e-6, 1e6);
+    const struct surfel at = aimed_receiver(&slab, z, RECEIVER_GENERAL, &trial->seed);
     for (int means = 0; means < 2; ++means) {
       const enum gather_method method = means ? GATHER_PI : GATHER_MIDPOINT;
       struct gathered got;
@@ -227,7 +222,7 @@ void row_single(struct trial *trial) {
       lamp_sum(&lamp, method, 1e-3, &at, &got, NULL);
       double worst = 0;
       for (int c = 0; c < 3; ++c)
-        worst = fmax(worst, (double)fabsl(((long double)got.irradiance[c] - rgb[c]) / rgb[c]));
+        worst = larger(worst, (double)fabsl(((long double)got.irradiance[c] - rgb[c]) / rgb[c]));
       trial_note(trial, method, worst, method_rounding(method));
     }
   }
@@ -236,39 +231,17 @@ void row_single(struct trial *trial) {
 
 /* ---- Levels: the same energy on each, exactly. */
 
-static void sum_exactly(const struct slab *slab, int channel, mpq_t sum) {
-  mpq_t sample;
-  size_t count = slab_sample_count(slab);
-  mpq_init(sample);
-  mpq_set_ui(sum, 0, 1);
-  for (size_t k = 0; k < count; ++k) {
-    mpq_set_d(sample, (double)slab->rgb[3 * k + (size_t)channel]);
-    mpq_add(sum, sum, sample);
-  }
-  mpq_set_ui(sample, count, 1);
-  mpq_div(sum, sum, sample); /* all samples of a level have the same area */
-  mpq_clear(sample);
-}
-
 void row_levels(struct trial *trial) {
   int samples[SLAB_AXES];
-  for (int axis = 0; axis < SLAB_AXES; ++axis) samples[axis] = 1 + trial_choose(trial, 12);
+  for (int axis = 0; axis < SLAB_AXES; ++axis) samples[axis] = 1 + random_choose(&trial->seed, 12);
   struct slab slab =
-      rough_slab(samples, any_distance(trial), ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
+      rough_slab(samples, trial_distance(trial), ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
   struct lamp lamp;
-  mpq_t page, level;
-  mpq_inits(page, level, NULL);
   lamp_open(&lamp, &slab);
   const struct levels *levels = &lamp.levels.levels[0];
-  for (int c = 0; c < 3; ++c) {
-    sum_exactly(&slab, c, page);
-    for (int k = 0; k < levels->count; ++k) {
-      sum_exactly(&levels->page[k].slab, c, level);
-      mpq_sub(level, level, page);
-      mpq_div(level, level, page);
-      trial_note(trial, GATHER_LEVELS, fabs(mpq_get_d(level)), 3e-7);
-    }
-  }
-  mpq_clears(page, level, NULL);
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < levels->count; ++k) /* samples of a level have the same area */
+      trial_note(trial, GATHER_LEVELS, fabs(oracle_mean_change(&slab, &levels->page[k].slab, c)),
+                 3e-7);
   lamp_close(&lamp);
 }

@@ -1,5 +1,5 @@
-/* rows_neighbours.c - a receiver's light does not depend on who is summed with it: in another
- * order and in other groups, with and without something in between, the same bits. */
+/* rows_neighbours.c - a receiver's light does not depend on the receivers summed with it: in
+ * another order and in other groups, with and without shadows, the same bits. */
 #include <math.h>
 
 #include "numerics.h"
@@ -22,10 +22,10 @@ static void place_screen(struct occlusion **occlusion) {
 static void place_receivers(struct trial *trial, const struct slab *slab,
                             struct receiver receivers[COUNT]) {
   for (int k = 0; k < COUNT; ++k) {
-    const struct test_receiver at =
-        aimed_receiver(slab, trial_random_log(trial, 0.01, 100),
-                       (enum receiver_kind)trial_choose(trial, RECEIVER_KINDS), &trial->seed);
-    receivers[k] = lamp_receiver(&at);
+    const struct surfel at = aimed_receiver(
+        slab, random_log(&trial->seed, 0.01, 100),
+        (enum receiver_kind)random_choose(&trial->seed, RECEIVER_KINDS), &trial->seed);
+    receivers[k] = receiver_at(&at);
     receivers[k].index = (uint64_t)k;
     if (k % 5 == 0) {
       receivers[k].shininess = 20;
@@ -42,12 +42,12 @@ static void sum_otherwise(struct trial *trial, const struct lamp *lamp,
   struct gathered light[COUNT];
   int order[COUNT] = {0}, size;
   for (int k = 0; k < COUNT; ++k) {
-    int other = trial_choose(trial, k + 1);
+    int other = random_choose(&trial->seed, k + 1);
     order[k] = order[other];
     order[other] = k;
   }
   for (int first = 0; first < COUNT; first += size) {
-    size = 1 + trial_choose(trial, 20);
+    size = 1 + random_choose(&trial->seed, 20);
     if (size > COUNT - first) size = COUNT - first;
     for (int k = 0; k < size; ++k) group[k] = receivers[order[first + k]];
     lamp_sum_many(lamp, settings, group, size, light);
@@ -64,19 +64,21 @@ static bool same(const struct gathered *a, const struct gathered *b) {
 void row_neighbours(struct trial *trial) {
   static const int grid[SLAB_AXES] = {8, 8, 16, 16};
   static const double window[4] = {-1.5, 1.5, -1.5, 1.5};
-  const double distance = trial_choose(trial, 2) ? INFINITY : 3;
-  struct slab slab = rough_slab(grid, distance, window, FRAME_PLAIN,
-                                trial_choose(trial, 2) ? FILL_UNIFORM : FILL_EXTREME, trial->seed);
+  const double distance = random_choose(&trial->seed, 2) ? INFINITY : 3;
+  struct slab slab =
+      rough_slab(grid, distance, window, FRAME_PLAIN,
+                 random_choose(&trial->seed, 2) ? FILL_UNIFORM : FILL_EXTREME, trial->seed);
   struct receiver receivers[COUNT];
   struct gathered all[COUNT], other[COUNT];
   struct lamp lamp;
   struct occlusion *occlusion = NULL;
   lamp_open(&lamp, &slab);
   place_receivers(trial, &slab, receivers);
-  if (trial_choose(trial, 2)) place_screen(&occlusion);
+  if (random_choose(&trial->seed, 2)) place_screen(&occlusion);
   for (int k = 0; k < GATHER_METHODS; ++k) {
     const struct gather_settings settings = {.method = (enum gather_method)k,
-                                             .tolerance = pow(10, -2 - trial_choose(trial, 4)),
+                                             .tolerance =
+                                                 pow(10, -2 - random_choose(&trial->seed, 4)),
                                              .occlusion = occlusion,
                                              .shadow_grid = 4,
                                              .shadow_edge = 8};

@@ -1,8 +1,9 @@
-/* rows_switch.c - no step where a method changes its mind; and what random samples are on the
- * average. */
+/* rows_switch.c - no step where a method takes another rule, node, level or micro light; and
+ * the mean of the published algorithm. */
 #include <math.h>
 #include <stdio.h>
 
+#include "base/vector.h"
 #include "numerics.h"
 
 static const double ordinary[4] = {-0.7, 1.1, -0.9, 0.6}, tolerance = 1e-3;
@@ -10,29 +11,27 @@ static const double ordinary[4] = {-0.7, 1.1, -0.9, 0.6}, tolerance = 1e-3;
 /* A way for a receiver: from one to another, evenly in the logarithm of the height. */
 struct way {
   const struct slab *slab;
-  struct test_receiver ends[2];
+  struct surfel ends[2];
   double z[2], slope[2][2];
 };
 
 static struct way any_way(struct trial *trial, const struct slab *slab) {
   struct way way = {.slab = slab};
   for (int k = 0; k < 2; ++k) {
-    way.z[k] = trial_random_log(trial, 0.03, 300);
+    way.z[k] = random_log(&trial->seed, 0.03, 300);
     way.ends[k] = aimed_receiver(slab, way.z[k], RECEIVER_GENERAL, &trial->seed);
     for (int axis = 0; axis < 2; ++axis) way.slope[k][axis] = way.ends[k].p[axis] / way.z[k];
   }
   return way;
 }
 
-static struct test_receiver along(const struct way *way, double t) {
-  struct test_receiver at = {{0}, {0}};
-  double length = 0;
+static struct surfel along(const struct way *way, double t) {
+  struct surfel at = {{0}, {0}};
   at.p[2] = way->z[0] * pow(way->z[1] / way->z[0], t);
   for (int axis = 0; axis < 2; ++axis)
     at.p[axis] = at.p[2] * (way->slope[0][axis] + t * (way->slope[1][axis] - way->slope[0][axis]));
   for (int c = 0; c < 3; ++c) at.n[c] = way->ends[0].n[c] * (1 - t) + way->ends[1].n[c] * t;
-  for (int c = 0; c < 3; ++c) length = hypot(length, at.n[c]);
-  for (int c = 0; c < 3; ++c) at.n[c] /= length;
+  vector_normalise(at.n);
   return at;
 }
 
@@ -44,7 +43,7 @@ struct done {
 
 static struct done sum(const struct lamp *lamp, enum gather_method method, const struct way *way,
                        double t) {
-  const struct test_receiver at = along(way, t);
+  const struct surfel at = along(way, t);
   struct gather_counts counts;
   struct done done;
   lamp_sum(lamp, method, tolerance, &at, &done.got, &counts);
@@ -83,19 +82,19 @@ static void find_step(struct trial *trial, const struct lamp *lamp, enum gather_
     most = fmax(most, 1e-4 * fmin(lamp->most / (z * z), lamp->hemisphere));
   }
   for (int k = 0; k < 2; ++k) {
-    const struct test_receiver at = along(way, t[k]);
+    const struct surfel at = along(way, t[k]);
     exact[k] = oracle_irradiance(&lamp->slab, at.p, at.n);
     oracle_spread(&lamp->slab, &at, spread[k]);
   }
-  const struct test_receiver at = along(way, t[0]);
+  const struct surfel at = along(way, t[0]);
   if (trial->verbose)
     printf("  receiver %.17g %.17g %.17g  %.17g %.17g %.17g: %.17g beside %.17g\n", at.p[0],
            at.p[1], at.p[2], at.n[0], at.n[1], at.n[2], a[0], b[0]);
   for (int c = 0; c < 3; ++c) {
     double off = fabs(a[c] - b[c] - (double)(exact[0].e[c] - exact[1].e[c]));
-    step = fmax(step, off - spread[0][c] - spread[1][c]);
+    step = larger(step, off - spread[0][c] - spread[1][c]);
   }
-  trial_note(trial, method, step > 0 ? step / most : 0, claimed(method, &done[0], &done[1]));
+  trial_note(trial, method, step <= 0 ? 0 : step / most, claimed(method, &done[0], &done[1]));
 }
 
 void row_switches(struct trial *trial) {
@@ -104,7 +103,8 @@ void row_switches(struct trial *trial) {
   static const enum gather_method methods[] = {GATHER_AUTO,   GATHER_REFERENCE, GATHER_PI,
                                                GATHER_CLOSED, GATHER_LEVELS,    GATHER_CUT};
   const enum gather_method method = methods[trial->start % 6];
-  const double distance = trial_choose(trial, 2) ? INFINITY : trial_random_log(trial, 0.3, 10);
+  const double distance =
+      random_choose(&trial->seed, 2) ? INFINITY : random_log(&trial->seed, 0.3, 10);
   struct slab slab = rough_slab(grid, distance, ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
   struct lamp lamp;
   lamp_open(&lamp, &slab);
@@ -128,20 +128,23 @@ void row_random(struct trial *trial) {
   struct slab slab = rough_slab(grid, INFINITY, ordinary, FRAME_TURNED, FILL_EXTREME, trial->seed);
   struct lamp lamp;
   lamp_open(&lamp, &slab);
-  const struct test_receiver at =
-      aimed_receiver(&slab, trial_random_log(trial, 0.05, 100), RECEIVER_GENERAL, &trial->seed);
+  const struct surfel at =
+      aimed_receiver(&slab, random_log(&trial->seed, 0.05, 100), RECEIVER_GENERAL, &trial->seed);
+  const struct receiver receiver = receiver_at(&at);
   const struct oracle_value exact = oracle_irradiance(&slab, at.p, at.n);
   double sum = 0, square = 0;
   for (int k = 0; k < SAMPLES; ++k) {
     struct gathered got;
-    lamp_sum_random(&lamp, (uint64_t)k, &at, &got);
+    const struct gather_settings settings = {
+        .method = GATHER_PAPER, .tolerance = 1e-6, .seed = (uint64_t)k};
+    lamp_sum_many(&lamp, &settings, &receiver, 1, &got);
     double offset = (double)((long double)got.irradiance[1] - exact.e[1]);
     sum += offset;
     square += offset * offset;
   }
   const double mean = sum / SAMPLES;
   const double error = sqrt(fmax(0, square / SAMPLES - mean * mean) / SAMPLES);
-  if (exact.e[1] > 0)
+  if (!(exact.e[1] <= 0))
     trial_note(trial, GATHER_PAPER, fabs(mean) / (double)exact.e[1],
                6 * error / (double)exact.e[1] + 1e-12);
   lamp_close(&lamp);

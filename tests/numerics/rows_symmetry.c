@@ -9,14 +9,14 @@ static const int grid[SLAB_AXES] = {4, 3, 6, 5};
 static const double ordinary[4] = {-0.7, 1.1, -0.9, 0.6}, tolerance = 1e-3;
 
 static struct slab any_slab(struct trial *trial, enum frame frame) {
-  double finite = trial_random_log(trial, 0.3, 10);
-  return rough_slab(grid, trial_choose(trial, 2) ? INFINITY : finite, ordinary, frame, FILL_UNIFORM,
-                    trial->seed);
+  double distance = trial_distance(trial);
+  return rough_slab(grid, distance, ordinary, frame, FILL_UNIFORM, trial->seed);
 }
 
-static struct test_receiver any_receiver(struct trial *trial, const struct slab *slab) {
-  return aimed_receiver(slab, trial_random_log(trial, 1e-2, 1e4),
-                        (enum receiver_kind)trial_choose(trial, RECEIVER_KINDS), &trial->seed);
+static struct surfel any_receiver(struct trial *trial, const struct slab *slab) {
+  return aimed_receiver(slab, random_log(&trial->seed, 1e-2, 1e4),
+                        (enum receiver_kind)random_choose(&trial->seed, RECEIVER_KINDS),
+                        &trial->seed);
 }
 
 /* The largest difference to `by` a, relative to the largest of it, or to `most`. */
@@ -37,7 +37,7 @@ static void copy_slab(const struct slab *from, struct slab *to) {
   memcpy(to->rgb, from->rgb, 3 * slab_sample_count(from) * sizeof *to->rgb);
 }
 
-static void scale_lengths(struct slab *slab, struct test_receiver *receiver, double by) {
+static void scale_lengths(struct slab *slab, struct surfel *receiver, double by) {
   for (int c = 0; c < 3; ++c) {
     slab->center[c] *= by;
     slab->u[c] *= by;
@@ -49,9 +49,10 @@ static void scale_lengths(struct slab *slab, struct test_receiver *receiver, dou
 
 /* Lengths and samples times powers of two: the same bits. */
 void row_powers(struct trial *trial) {
-  struct slab slab = any_slab(trial, (enum frame)trial_choose(trial, 3)), scaled;
-  struct test_receiver receiver = any_receiver(trial, &slab), far = receiver;
-  int lengths = trial_choose(trial, 601) - 300, samples = trial_choose(trial, 121) - 60;
+  struct slab slab = any_slab(trial, (enum frame)random_choose(&trial->seed, 3)), scaled;
+  struct surfel receiver = any_receiver(trial, &slab), far = receiver;
+  int lengths = random_choose(&trial->seed, 601) - 300,
+      samples = random_choose(&trial->seed, 121) - 60;
   struct lamp lamps[2];
   copy_slab(&slab, &scaled);
   scale_lengths(&scaled, &far, ldexp(1, lengths));
@@ -70,10 +71,10 @@ void row_powers(struct trial *trial) {
 
 /* Lengths of 1e-150 and 1e150. */
 void row_units(struct trial *trial) {
-  struct slab slab = any_slab(trial, (enum frame)trial_choose(trial, 3));
-  struct test_receiver receiver = any_receiver(trial, &slab);
+  struct slab slab = any_slab(trial, (enum frame)random_choose(&trial->seed, 3));
+  struct surfel receiver = any_receiver(trial, &slab);
   struct lamp lamp;
-  scale_lengths(&slab, &receiver, pow(10, trial_random(trial, -150, 150)));
+  scale_lengths(&slab, &receiver, pow(10, random_between(&trial->seed, -150, 150)));
   lamp_open(&lamp, &slab);
   trial_hold(trial, &lamp, &receiver);
   lamp_close(&lamp);
@@ -100,7 +101,7 @@ static void swap_numbers(double *a, double *b) {
 
 /* A mirror of x, x and y swapped, or both: a turn by 90 degrees. */
 static void transform(const struct slab *from, bool swap, bool mirror, struct slab *to,
-                      struct test_receiver *receiver) {
+                      struct surfel *receiver) {
   *to = *from;
   to->rgb = NULL;
   to->json = NULL;
@@ -139,8 +140,8 @@ static double allowed(enum gather_method method) {
 
 void row_symmetry(struct trial *trial) {
   struct slab slab = any_slab(trial, FRAME_PLAIN), turned;
-  struct test_receiver receiver = any_receiver(trial, &slab), other = receiver;
-  const int which = 1 + trial_choose(trial, 3);
+  struct surfel receiver = any_receiver(trial, &slab), other = receiver;
+  const int which = 1 + random_choose(&trial->seed, 3);
   struct lamp lamps[2];
   transform(&slab, which & 1, which & 2, &turned, &other);
   lamp_open(&lamps[0], &slab);
@@ -160,8 +161,8 @@ void row_symmetry(struct trial *trial) {
 void row_superposition(struct trial *trial) {
   struct slab slabs[3];
   struct lamp lamps[3];
-  slabs[0] = any_slab(trial, (enum frame)trial_choose(trial, 3));
-  struct test_receiver receiver = any_receiver(trial, &slabs[0]);
+  slabs[0] = any_slab(trial, (enum frame)random_choose(&trial->seed, 3));
+  struct surfel receiver = any_receiver(trial, &slabs[0]);
   for (int k = 1; k < 3; ++k) copy_slab(&slabs[0], &slabs[k]);
   fill_slab(&slabs[1], FILL_EXTREME, trial->seed + 1);
   for (size_t k = 0; k < 3 * slab_sample_count(&slabs[0]); ++k) {

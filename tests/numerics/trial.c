@@ -3,25 +3,19 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "numerics.h"
 
 static const double rounding = 1e-15, exact_methods = 1e-9, least_share = 1e-4;
 
-double trial_random(struct trial *trial, double low, double high) {
-  return low + (high - low) * random_number(&trial->seed);
-}
-
-double trial_random_log(struct trial *trial, double low, double high) {
-  return low * pow(high / low, random_number(&trial->seed));
-}
-
-int trial_choose(struct trial *trial, int count) {
-  return (int)(count * random_number(&trial->seed));
+double trial_distance(struct trial *trial) {
+  double finite = random_log(&trial->seed, 0.3, 10);
+  return random_choose(&trial->seed, 2) ? INFINITY : finite;
 }
 
 void trial_note(struct trial *trial, enum gather_method method, double error, double allowed) {
   struct tally *tally = &trial->tally[method];
-  double share = isnan(error) ? INFINITY : error > 0 ? error / allowed : 0;
+  double share = isnan(error) || isnan(allowed) ? INFINITY : error > 0 ? error / allowed : 0;
   ++tally->values;
   tally->stated += allowed > 0 && allowed < INFINITY;
   if (share > tally->share || (tally->share == 0 && error > tally->error))
@@ -72,9 +66,8 @@ void lamp_open(struct lamp *lamp, const struct slab *slab) {
   *lamp = (struct lamp){.slab = *slab, .positive = true};
   find_most(slab, lamp);
   for (size_t k = 0; k < floats; ++k) lamp->positive = lamp->positive && slab->rgb[k] >= 0;
-  const char *path = write_light("lamp.tif", slab, 1);
-  if (light_load(path, &lamp->light, &error) != RESULT_OK ||
-      gather_prepare(&lamp->light, 1, GATHER_LEVELS, 0, 1, &lamp->levels, &error) != RESULT_OK ||
+  lamp->light = load_light(slab, 1);
+  if (gather_prepare(&lamp->light, 1, GATHER_LEVELS, 0, 1, &lamp->levels, &error) != RESULT_OK ||
       gather_prepare(&lamp->light, 1, GATHER_CUT, 0, 1, &lamp->trees, &error) != RESULT_OK)
     fail_msg("%s", error.text);
 }
@@ -87,84 +80,52 @@ void lamp_close(struct lamp *lamp) {
   slab_free(&lamp->slab);
 }
 
-/* Counts: NULL allowed. */
-static void sum(const struct lamp *lamp, const struct gather_settings *wanted,
-                const struct receiver *receivers, int count, struct gathered *gathered,
-                struct gather_counts *counts) {
-  struct error error = {{0}};
+struct gather_counts lamp_sum_many(const struct lamp *lamp, const struct gather_settings *wanted,
+                                   const struct receiver *receivers, int count,
+                                   struct gathered *gathered) {
   struct gather_settings settings = *wanted;
-  struct gather *gather;
   settings.lights = &lamp->light;
   settings.light_count = 1;
   settings.level = -1;
   if (settings.method == GATHER_LEVELS || settings.method == GATHER_PAPER_LEVELS)
     settings.aids = &lamp->levels;
   if (settings.method == GATHER_CUT) settings.aids = &lamp->trees;
-  if (gather_create(&settings, &gather, &error) != RESULT_OK ||
-      gather_light(gather, receivers, count, gathered, &error) != RESULT_OK)
-    fail_msg("%s", error.text);
-  if (counts) *counts = *gather_counts(gather);
-  gather_free(gather);
-}
-
-struct receiver lamp_receiver(const struct test_receiver *from) {
-  struct receiver receiver = {.index = 0};
-  memcpy(receiver.position, from->p, sizeof receiver.position);
-  memcpy(receiver.normal, from->n, sizeof receiver.normal);
-  memcpy(receiver.lift, from->n, sizeof receiver.lift);
-  return receiver;
+  return sum_light(&settings, receivers, count, gathered);
 }
 
 void lamp_sum(const struct lamp *lamp, enum gather_method method, double tolerance,
-              const struct test_receiver *from, struct gathered *gathered,
-              struct gather_counts *counts) {
-  const struct receiver receiver = lamp_receiver(from);
+              const struct surfel *from, struct gathered *gathered, struct gather_counts *counts) {
+  const struct receiver receiver = receiver_at(from);
   const struct gather_settings settings = {.method = method, .tolerance = tolerance};
-  sum(lamp, &settings, &receiver, 1, gathered, counts);
-}
-
-void lamp_sum_random(const struct lamp *lamp, uint64_t seed, const struct test_receiver *from,
-                     struct gathered *gathered) {
-  const struct receiver receiver = lamp_receiver(from);
-  const struct gather_settings settings = {.method = GATHER_PAPER, .tolerance = 1e-6, .seed = seed};
-  sum(lamp, &settings, &receiver, 1, gathered, NULL);
-}
-
-void lamp_sum_many(const struct lamp *lamp, const struct gather_settings *settings,
-                   const struct receiver *receivers, int count, struct gathered *gathered) {
-  sum(lamp, settings, receivers, count, gathered, NULL);
+  struct gather_counts work = lamp_sum_many(lamp, &settings, &receiver, 1, gathered);
+  if (counts) *counts = work;
 }
 
 /* ---- The oracle. */
-
-static double length(const double a[3]) {
-  return hypot(hypot(a[0], a[1]), a[2]);
-}
 
 /* Coordinates along the axes of scene space are exact where the slab lies along them. */
 static bool is_plain(const struct slab *slab) {
   return slab->u[1] == 0 && slab->u[2] == 0 && slab->v[0] == 0 && slab->v[2] == 0;
 }
 
-static void add_change(const struct slab *slab, const struct test_receiver *receiver,
+static void add_change(const struct slab *slab, const struct surfel *receiver,
                        const struct oracle_value *middle, const double shift[3],
                        const double turn[3], double spread[3]) {
   double largest[3] = {0};
   for (int sign = -1; sign <= 1; sign += 2) {
-    struct test_receiver moved = *receiver;
+    struct surfel moved = *receiver;
     for (int c = 0; c < 3; ++c) {
       moved.p[c] += sign * shift[c];
       moved.n[c] += sign * turn[c];
     }
     const struct oracle_value value = oracle_irradiance(slab, moved.p, moved.n);
     for (int c = 0; c < 3; ++c)
-      largest[c] = fmax(largest[c], (double)fabsl(value.e[c] - middle->e[c]));
+      largest[c] = larger(largest[c], (double)fabsl(value.e[c] - middle->e[c]));
   }
   for (int c = 0; c < 3; ++c) spread[c] += largest[c];
 }
 
-void oracle_spread(const struct slab *slab, const struct test_receiver *receiver,
-                   double spread[3]) {
+void oracle_spread(const struct slab *slab, const struct surfel *receiver, double spread[3]) {
   static const double none[3];
   const struct oracle_value middle = oracle_irradiance(slab, receiver->p, receiver->n);
   const double *frame[3] = {slab->u, slab->v, slab->normal};
@@ -173,10 +134,10 @@ void oracle_spread(const struct slab *slab, const struct test_receiver *receiver
     from[c] = receiver->p[c] - slab->center[c];
     spread[c] = 0;
   }
-  far = length(from);
+  far = vector_length(from);
   for (int axis = 0; axis < 3; ++axis) {
     double shift[3] = {0}, turn[3] = {0};
-    double by = rounding * (is_plain(slab) ? fabs(from[axis]) : far) / length(frame[axis]);
+    double by = rounding * (is_plain(slab) ? fabs(from[axis]) : far) / vector_length(frame[axis]);
     for (int c = 0; c < 3; ++c) shift[c] = by * frame[axis][c];
     turn[axis] = rounding * (is_plain(slab) ? fabs(receiver->n[axis]) : 1);
     if (by > 0) add_change(slab, receiver, &middle, shift, none, spread);
@@ -208,27 +169,24 @@ double look_error(struct look *look, enum gather_method method, const double rgb
   const double tried = allowed > exact_methods ? allowed : allowed / 100;
   double worst = 0;
   for (int c = 0; c < 3; ++c) {
-    const struct oracle_value *exact = look->exact;
-    error[c] = 0;
-    if (!isfinite(rgb[c])) return NAN;
-    const double beside = (double)((long double)rgb[c] - exact->e[c]);
+    const double beside = (double)((long double)rgb[c] - look->exact->e[c]);
     double off = fabs(beside);
-    if (rgb[c] < 0 && look->lamp->positive) return NAN;
+    error[c] = 0;
+    if (!isfinite(rgb[c]) || isnan(off) || (rgb[c] < 0 && look->lamp->positive)) return NAN;
     if (off == 0) continue;
     double scale = find_scale(look, method, c);
     if (off > tried * scale && !look->has_spread) {
       oracle_spread(&look->lamp->slab, look->receiver, look->spread);
       look->has_spread = true;
     }
-    if (look->has_spread) off -= fmin(off, look->spread[c]);
-    if (!(off > 0)) continue;
-    worst = fmax(worst, off / scale);
+    if (look->has_spread) off = larger(0, off - look->spread[c]);
+    worst = larger(worst, off / scale);
     error[c] = copysign(off / scale, beside);
   }
   return worst;
 }
 
-static void print_receiver(const struct test_receiver *receiver, const struct oracle_value *exact) {
+static void print_receiver(const struct surfel *receiver, const struct oracle_value *exact) {
   const double *p = receiver->p, *n = receiver->n;
   printf("receiver %.17g %.17g %.17g  %.17g %.17g %.17g: %.17Lg %.17Lg %.17Lg\n", p[0], p[1], p[2],
          n[0], n[1], n[2], exact->e[0], exact->e[1], exact->e[2]);
@@ -240,16 +198,16 @@ static double find_height(const struct slab *slab, const double p[3]) {
   return height;
 }
 
-struct look look_at(const struct lamp *lamp, const struct test_receiver *receiver,
+struct look look_at(const struct lamp *lamp, const struct surfel *receiver,
                     const struct oracle_value *exact) {
   return (struct look){lamp, receiver, exact, find_height(&lamp->slab, receiver->p), {0}, false};
 }
 
-void trial_hold_value(struct trial *trial, const struct lamp *lamp,
-                      const struct test_receiver *receiver, const struct oracle_value *exact) {
+void trial_hold_value(struct trial *trial, const struct lamp *lamp, const struct surfel *receiver,
+                      const struct oracle_value *exact) {
   static const double tolerances[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
   struct look look = look_at(lamp, receiver, exact);
-  const double asked = tolerances[trial_choose(trial, 5)];
+  const double asked = tolerances[random_choose(&trial->seed, 5)];
   if (trial->verbose) print_receiver(receiver, exact);
   for (int k = 0; k < GATHER_METHODS; ++k) {
     const enum gather_method method = (enum gather_method)k;
@@ -266,7 +224,7 @@ void trial_hold_value(struct trial *trial, const struct lamp *lamp,
   }
 }
 
-void trial_hold(struct trial *trial, struct lamp *lamp, const struct test_receiver *receiver) {
+void trial_hold(struct trial *trial, struct lamp *lamp, const struct surfel *receiver) {
   const struct oracle_value exact = oracle_irradiance(&lamp->slab, receiver->p, receiver->n);
   trial_hold_value(trial, lamp, receiver, &exact);
   trial_hold_views(trial, lamp, receiver);

@@ -6,21 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The upper bits of PCG: neighbouring numbers must not be related, or
- * receivers would miss parts of the slab. */
-double random_number(uint32_t *seed) {
-  *seed = *seed * 747796405u + 2891336453u;
-  uint32_t word = ((*seed >> ((*seed >> 28) + 4)) ^ *seed) * 277803737u;
-  return ((word >> 22 ^ word) >> 8) / 16777216.0;
-}
-
-void random_direction(uint32_t *seed, double direction[3]) {
-  double z = 2 * random_number(seed) - 1, turn = 2 * acos(-1) * random_number(seed);
-  direction[0] = sqrt(1 - z * z) * cos(turn);
-  direction[1] = sqrt(1 - z * z) * sin(turn);
-  direction[2] = z;
-}
-
 static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -36,25 +21,17 @@ static void reject(double a[3], const double b[3]) {
   for (int k = 0; k < 3; ++k) a[k] -= along * b[k];
 }
 
-static void turn_frame(struct slab *slab, bool mirrored, uint32_t *seed) {
-  double *u = slab->u, *v = slab->v, *n = slab->normal;
-  random_direction(seed, n);
-  random_direction(seed, u);
-  for (int twice = 0; twice < 2; ++twice) {
-    reject(u, n);
-    scale(u, 1);
-  }
-  double sign = mirrored ? -1 : 1;
+static void turn_frame(struct slab *slab, bool mirrored, uint64_t *seed) {
+  double frame[3][3], *const axes[3] = {slab->u, slab->v, slab->normal};
+  random_frame(seed, mirrored ? -1 : 1, frame);
   for (int k = 0; k < 3; ++k) {
-    int a = (k + 1) % 3, b = (k + 2) % 3;
-    v[k] = sign * (n[a] * u[b] - n[b] * u[a]);
+    memcpy(axes[k], frame[k], sizeof frame[k]);
+    if (k < 2) scale(axes[k], random_between(seed, 0.3, 1.3));
+    slab->center[k] = random_between(seed, -4, 4);
   }
-  scale(u, 0.3 + random_number(seed));
-  scale(v, 0.3 + random_number(seed));
-  for (int k = 0; k < 3; ++k) slab->center[k] = 8 * random_number(seed) - 4;
 }
 
-void fill_slab(struct slab *slab, enum fill fill, uint32_t seed) {
+void fill_slab(struct slab *slab, enum fill fill, uint64_t seed) {
   size_t count = 3 * slab_sample_count(slab);
   for (size_t k = 0; k < count; ++k) {
     double x = random_number(&seed);
@@ -66,7 +43,7 @@ void fill_slab(struct slab *slab, enum fill fill, uint32_t seed) {
 }
 
 struct slab rough_slab(const int samples[SLAB_AXES], double distance, const double window[4],
-                       enum frame frame, enum fill fill, uint32_t seed) {
+                       enum frame frame, enum fill fill, uint64_t seed) {
   struct slab slab = slab_default();
   struct error error = {{0}};
   memcpy(slab.samples, samples, sizeof slab.samples);
@@ -90,15 +67,15 @@ void slab_point(const struct slab *slab, double a, double b, double z, double p[
     p[k] = slab->center[k] + a / u * slab->u[k] + b / v * slab->v[k] + z * slab->normal[k];
 }
 
-struct receiver aimed_receiver(const struct slab *slab, double z, enum receiver_kind kind,
-                               uint32_t *seed) {
-  struct receiver receiver = {{0}, {0}};
+struct surfel aimed_receiver(const struct slab *slab, double z, enum receiver_kind kind,
+                             uint64_t *seed) {
+  struct surfel receiver = {{0}, {0}};
   const double *w = slab->st_window;
   double kappa = isinf(slab->st_distance) ? 0 : 1 / slab->st_distance, from[3], to_light[3];
-  double a = (random_number(seed) - 0.5) * sqrt(dot(slab->u, slab->u));
-  double b = (random_number(seed) - 0.5) * sqrt(dot(slab->v, slab->v));
-  double s = w[0] + (w[1] - w[0]) * (1.2 * random_number(seed) - 0.1);
-  double t = w[2] + (w[3] - w[2]) * (1.2 * random_number(seed) - 0.1);
+  double a = random_between(seed, -0.5, 0.5) * sqrt(dot(slab->u, slab->u));
+  double b = random_between(seed, -0.5, 0.5) * sqrt(dot(slab->v, slab->v));
+  double s = w[0] + (w[1] - w[0]) * random_between(seed, -0.1, 1.1);
+  double t = w[2] + (w[3] - w[2]) * random_between(seed, -0.1, 1.1);
   slab_point(slab, a, b, 0, from);
   slab_point(slab, a + z * (s - kappa * a), b + z * (t - kappa * b), z, receiver.p);
   for (int k = 0; k < 3; ++k) to_light[k] = from[k] - receiver.p[k];
@@ -114,6 +91,15 @@ struct receiver aimed_receiver(const struct slab *slab, double z, enum receiver_
   return receiver;
 }
 
+void aim(const struct slab *slab, const double z[2], enum receiver_kind kind, uint64_t *seed,
+         struct surfel *receivers, int count) {
+  for (int k = 0; k < count; ++k) {
+    enum receiver_kind one =
+        kind == RECEIVER_KINDS ? (enum receiver_kind)(k % RECEIVER_KINDS) : kind;
+    receivers[k] = aimed_receiver(slab, random_log(seed, z[0], z[1]), one, seed);
+  }
+}
+
 const char *write_light(const char *name, const struct slab *slabs, int count) {
   struct error error = {{0}};
   const char *path = scratch(name);
@@ -122,11 +108,7 @@ const char *write_light(const char *name, const struct slab *slabs, int count) {
   return path;
 }
 
-void need_program(void) {
-  if (!getenv("RENDERSLAB")) skip();
-}
-
-static void write_receivers(const char *path, const struct receiver *receivers, int count) {
+static void write_receivers(const char *path, const struct surfel *receivers, int count) {
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   for (int k = 0; k < count; ++k) {
@@ -136,7 +118,7 @@ static void write_receivers(const char *path, const struct receiver *receivers, 
   assert_int_equal(fclose(file), 0);
 }
 
-void irradiance(const struct receiver *receivers, int count, double rgb[][3], const char *arguments,
+void irradiance(const struct surfel *receivers, int count, double rgb[][3], const char *arguments,
                 ...) {
   char words[3000], command[sizeof words + 1300], line[256];
   static char input[600], output[600]; /* not among the caller's 8 */
@@ -165,4 +147,43 @@ void irradiance(const struct receiver *receivers, int count, double rgb[][3], co
   }
   if (fgets(line, sizeof line, file)) fail_msg("a line too many: %s", line);
   fclose(file);
+}
+
+double relative_rms(double (*a)[3], double (*b)[3], int count) {
+  double off = 0, all = 0;
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < 3; ++c) {
+      off += (a[k][c] - b[k][c]) * (a[k][c] - b[k][c]);
+      all += b[k][c] * b[k][c];
+    }
+  return sqrt(off / all);
+}
+
+struct light load_light(const struct slab *slabs, int count) {
+  struct light light;
+  struct error error = {{0}};
+  if (light_load(write_light("light.tif", slabs, count), &light, &error) != RESULT_OK)
+    fail_msg("%s", error.text);
+  return light;
+}
+
+struct receiver receiver_at(const struct surfel *at) {
+  struct receiver receiver = {.index = 0};
+  memcpy(receiver.position, at->p, sizeof receiver.position);
+  memcpy(receiver.normal, at->n, sizeof receiver.normal);
+  memcpy(receiver.lift, at->n, sizeof receiver.lift);
+  return receiver;
+}
+
+struct gather_counts sum_light(const struct gather_settings *settings,
+                               const struct receiver *receivers, int count,
+                               struct gathered *gathered) {
+  struct error error = {{0}};
+  struct gather *gather;
+  if (gather_create(settings, &gather, &error) != RESULT_OK ||
+      gather_light(gather, receivers, count, gathered, &error) != RESULT_OK)
+    fail_msg("%s", error.text);
+  const struct gather_counts counts = *gather_counts(gather);
+  gather_free(gather);
+  return counts;
 }

@@ -20,8 +20,7 @@ static void expect_vector(const double x[3], double a, double b, double c) {
 }
 
 /* Left-handed: who looks along z with y up has x to the right. */
-static void test_axes(void **state) {
-  (void)state;
+TEST(test_axes) {
   double forward[3], right[3], up[3];
   struct camera camera = parse("from=0,0,-5 at=0,0,3");
   camera_axes(&camera, forward, right, up);
@@ -44,8 +43,7 @@ static void test_axes(void **state) {
   assert_true(up[1] > 0);
 }
 
-static void test_rays(void **state) {
-  (void)state;
+TEST(test_rays) {
   double ray[3];
   struct camera camera = parse("from=1,2,3 at=1,2,13 fov=90");
   camera_ray(&camera, 400, 300, 200, 150, ray);
@@ -61,16 +59,14 @@ static void test_rays(void **state) {
   expect_vector(ray, x / length, y / length, 1 / length);
 }
 
-static void test_defaults(void **state) {
-  (void)state;
+TEST(test_defaults) {
   struct camera camera = parse("from=1,2,3 at=-4e2,5,.5");
   expect_vector(camera.up, 0, 1, 0);
   assert_near(camera.fov, 60, 0);
   expect_vector(camera.at, -400, 5, 0.5);
 }
 
-static void test_refused(void **state) {
-  (void)state;
+TEST(test_refused) {
   static const char *const cases[][2] = {
       {"", "from=X,Y,Z is missing"},
       {"from=0,0,0", "at=X,Y,Z is missing"},

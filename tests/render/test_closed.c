@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "helpers.h"
-#include "oracle.h"
+#include "oracle/oracle.h"
 
 enum { COUNT = 400, FEW = 24, SEEDS = 64 };
 
@@ -37,44 +37,39 @@ static const struct family families[] = {
 };
 enum { FAMILIES = sizeof families / sizeof families[0] };
 
-/* Receivers at heights evenly in the logarithm, of every kind. */
-static void aim(const struct slab *slab, const double z[2], int count, uint32_t seed,
-                struct receiver receivers[]) {
-  for (int k = 0; k < count; ++k)
-    receivers[k] = aimed_receiver(slab, z[0] * pow(z[1] / z[0], random_number(&seed)),
-                                  (enum receiver_kind)(k % RECEIVER_KINDS), &seed);
+static void aim_all(const struct slab *slab, const double z[2], int count, uint64_t seed,
+                    struct surfel receivers[]) {
+  aim(slab, z, RECEIVER_KINDS, &seed, receivers, count);
 }
 
 /* Beyond half of the last of nine digits, in each of the two. */
 static double off(double a, double b) {
   if (a == b) return 0;
   double one = pow(10, floor(log10(fmax(fabs(a), fabs(b)))) - 8);
-  return fmax(0, fabs(a - b) - one) / fabs(b);
+  return larger(0, fabs(a - b) - one) / fabs(b);
 }
 
-static void test_closed(void **state) {
-  (void)state;
+TEST(test_closed) {
   int failed = 0;
-  need_program();
   for (int f = 0; f < FAMILIES; ++f) {
     const struct family *family = &families[f];
     struct slab slab = rough_slab(family->samples, family->distance, family->window, family->frame,
-                                  FILL_EXTREME, (uint32_t)f + 2);
-    static struct receiver receivers[COUNT];
+                                  FILL_EXTREME, (uint64_t)f + 2);
+    static struct surfel receivers[COUNT];
     static double closed[COUNT][3], reference[COUNT][3];
     double worst = 0, oracle = 0;
     int dark = 0;
-    aim(&slab, family->z, COUNT, (uint32_t)f + 10, receivers);
+    aim_all(&slab, family->z, COUNT, (uint64_t)f + 10, receivers);
     const char *light = write_light("closed.exr", &slab, 1);
     irradiance(receivers, COUNT, closed, "--light '%s' --method closed", light);
     irradiance(receivers, COUNT, reference, "--light '%s' --method reference --tolerance 1e-10",
                light);
     for (int k = 0; k < COUNT; ++k) {
-      for (int c = 0; c < 3; ++c) worst = fmax(worst, off(closed[k][c], reference[k][c]));
+      for (int c = 0; c < 3; ++c) worst = larger(worst, off(closed[k][c], reference[k][c]));
       dark += reference[k][0] + reference[k][1] + reference[k][2] == 0;
       if (k >= FEW) continue;
       struct oracle_value value = oracle_irradiance(&slab, receivers[k].p, receivers[k].n);
-      for (int c = 0; c < 3; ++c) oracle = fmax(oracle, off(closed[k][c], (double)value.e[c]));
+      for (int c = 0; c < 3; ++c) oracle = larger(oracle, off(closed[k][c], (double)value.e[c]));
     }
     print_message("%-20s closed - reference %.1e, - oracle %.1e, %d of %d dark\n", family->name,
                   worst, oracle, dark, COUNT);
@@ -86,38 +81,22 @@ static void test_closed(void **state) {
 
 /* ---- One sample a micro light, on the paper's usual slab. */
 
-static struct slab usual_slab(double distance, uint32_t seed) {
-  return rough_slab((const int[]){16, 16, 64, 64}, distance, lamp, FRAME_TURNED, FILL_UNIFORM,
-                    seed);
-}
-
-/* sqrt(sum of squared differences / sum of squares) */
-static double rmse(double a[][3], double b[][3], int count) {
-  double square = 0, total = 0;
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < 3; ++c) {
-      square += pow(a[k][c] - b[k][c], 2);
-      total += b[k][c] * b[k][c];
-    }
-  return sqrt(square / total);
-}
-
-static void test_one_sample(void **state) {
-  (void)state;
+TEST(test_one_sample) {
   static const double distances[] = {INFINITY, 2}, z[2][2] = {{0.5, 8}, {0.3, 1.5}};
-  static struct receiver receivers[COUNT];
+  static struct surfel receivers[COUNT];
   static double reference[COUNT][3], pi[COUNT][3], midpoint[COUNT][3], paper[COUNT][3];
-  need_program();
   for (int d = 0; d < 2; ++d) {
-    struct slab slab = usual_slab(distances[d], 5);
-    aim(&slab, z[d], COUNT, 6, receivers);
+    struct slab slab = rough_slab((const int[]){16, 16, 64, 64}, distances[d], lamp, FRAME_TURNED,
+                                  FILL_UNIFORM, 5);
+    aim_all(&slab, z[d], COUNT, 6, receivers);
     const char *light = write_light("usual.exr", &slab, 1);
     irradiance(receivers, COUNT, reference, "--light '%s' --method reference", light);
     irradiance(receivers, COUNT, pi, "--light '%s' --method pi", light);
     irradiance(receivers, COUNT, midpoint, "--light '%s' --method midpoint", light);
     irradiance(receivers, COUNT, paper, "--light '%s' --method paper --seed 1", light);
-    double by_pi = rmse(pi, reference, COUNT), by_paper = rmse(paper, reference, COUNT);
-    double by_midpoint = rmse(midpoint, reference, COUNT);
+    double by_pi = relative_rms(pi, reference, COUNT),
+           by_paper = relative_rms(paper, reference, COUNT);
+    double by_midpoint = relative_rms(midpoint, reference, COUNT);
     print_message("relative RMSE: pi %.1e, midpoint %.1e, paper %.1e\n", by_pi, by_midpoint,
                   by_paper);
     assert_true(by_pi <= 2e-3);
@@ -128,18 +107,16 @@ static void test_one_sample(void **state) {
 }
 
 /* The random samples' mean is the integral: 64 seeds, within 4 standard errors. */
-static void test_paper_mean(void **state) {
-  (void)state;
+TEST(test_paper_mean) {
   static const double distances[] = {INFINITY, 0.7}, z[2] = {0.05, 20};
   static double reference[FEW][3], paper[SEEDS][FEW][3];
-  struct receiver receivers[FEW];
-  need_program();
+  struct surfel receivers[FEW];
   for (int d = 0; d < 2; ++d) {
     struct slab slab = rough_slab((const int[]){4, 5, 8, 6}, distances[d], ordinary, FRAME_TURNED,
                                   FILL_EXTREME, 7);
     double largest = 0;
     int seen = 0;
-    aim(&slab, z, FEW, 8, receivers);
+    aim_all(&slab, z, FEW, 8, receivers);
     const char *light = write_light("mean.exr", &slab, 1);
     irradiance(receivers, FEW, reference, "--light '%s' --method reference", light);
     for (int s = 0; s < SEEDS; ++s)
@@ -150,7 +127,7 @@ static void test_paper_mean(void **state) {
       for (int s = 0; s < SEEDS; ++s) square += pow(paper[s][k][1] - mean, 2) / (SEEDS - 1);
       double error = sqrt(square / SEEDS);
       if (exact == 0) assert_true(mean == 0);
-      if (error > 1e-6 * exact) largest = fmax(largest, fabs(mean - exact) / error);
+      if (error > 1e-6 * exact) largest = larger(largest, fabs(mean - exact) / error);
       seen += error > 1e-6 * exact;
     }
     print_message("paper's mean of %d seeds: %.2f standard errors at most, %d receivers\n", SEEDS,
@@ -163,15 +140,13 @@ static void test_paper_mean(void **state) {
 
 /* ---- The same bits. */
 
-static void test_seeds(void **state) {
-  (void)state;
+TEST(test_seeds) {
   static const double z[2] = {0.1, 5};
   double first[FEW][3], again[FEW][3], other[FEW][3];
-  struct receiver receivers[FEW];
-  need_program();
+  struct surfel receivers[FEW];
   struct slab slab =
       rough_slab((const int[]){4, 5, 8, 6}, INFINITY, ordinary, FRAME_TURNED, FILL_EXTREME, 7);
-  aim(&slab, z, FEW, 8, receivers);
+  aim_all(&slab, z, FEW, 8, receivers);
   const char *light = write_light("seeds.exr", &slab, 1);
   irradiance(receivers, FEW, first, "--light '%s' --method paper --seed 5", light);
   irradiance(receivers, FEW, again, "--light '%s' --method paper --seed 5", light);
@@ -187,17 +162,15 @@ static void test_seeds(void **state) {
   slab_free(&slab);
 }
 
-static void test_threads(void **state) {
-  (void)state;
+TEST(test_threads) {
   static const char *const methods[] = {"reference", "closed", "pi", "midpoint", "paper", "auto"};
   static const int threads[] = {2, 3, 7};
   static const double z[2] = {0.1, 5};
-  static struct receiver receivers[COUNT];
+  static struct surfel receivers[COUNT];
   static double one[COUNT][3], more[COUNT][3];
-  need_program();
   struct slab slab =
       rough_slab((const int[]){4, 5, 8, 6}, 0.7, ordinary, FRAME_TURNED, FILL_EXTREME, 7);
-  aim(&slab, z, COUNT, 9, receivers);
+  aim_all(&slab, z, COUNT, 9, receivers);
   const char *light = write_light("threads.exr", &slab, 1);
   for (int m = 0; m < 6; ++m) {
     irradiance(receivers, COUNT, one, "--light '%s' --method %s --threads 1", light, methods[m]);

@@ -1,19 +1,15 @@
 /* test_cut.c - the method cut against the reference: errors within the tolerance for lamps that
- * are smooth, have thin peaks or sharp edges, wherever the receivers are; what it costs; the
- * hand-over to micro lights. */
-#include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
+ * are smooth, have thin peaks or sharp edges, wherever the receivers are; what it costs;
+ * where it gives way to micro lights. */
 #include <string.h>
 
 #include "base/vector.h"
 #include "cut/cut.h"
 #include "cut/cut_views.h"
-#include "gather/gather.h"
-#include "testing.h"
+#include "helpers.h"
 
-enum { COUNT = 1000, TILE = 64 };
-static const double window = 1.5;
+enum { COUNT = 1000 };
+static const double slope = 1.5; /* of the window's edges */
 
 enum lamp { SMOOTH, PEAKS, EDGES, CONSTANT, LAMPS };
 
@@ -31,65 +27,40 @@ static double radiance(enum lamp lamp, const double at[4]) {
   }
 }
 
-static double uniform(uint64_t *seed) {
-  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-  return (double)(*seed >> 11) * 0x1p-53;
-}
-
 /* One page along z at the origin, with an aperture of 1 x 1. */
 struct lit {
   struct light light;
-  struct light_page page;
   struct gather_prepared aids;
 };
 
-static void fill(struct lit *lit, enum lamp lamp, double gain) {
-  static const double tint[3] = {1, 0.8, 0.3};
-  struct slab *slab = &lit->page.slab;
-  size_t count = slab_sample_count(slab);
-  for (size_t p = 0; p < count; ++p) {
-    int index[SLAB_AXES];
-    double at[SLAB_AXES];
-    slab_locate(slab, p, index);
-    for (int axis = 0; axis < SLAB_AXES; ++axis) at[axis] = slab_position(slab, axis, index[axis]);
-    double value = gain * radiance(lamp, at);
-    for (int c = 0; c < 3; ++c)
-      slab->rgb[3 * p + (size_t)c] = value > 1e-9 ? (float)(tint[c] * value) : 0;
-  }
-}
-
-static void make(struct lit *lit, enum lamp lamp, const int samples[SLAB_AXES], double distance,
-                 int threads) {
+static void prepare(struct lit *lit, int threads) {
   struct error error;
-  memset(lit, 0, sizeof *lit);
-  lit->page =
-      (struct light_page){.slab = slab_default(), .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  struct slab *slab = &lit->page.slab;
-  memcpy(slab->samples, samples, sizeof slab->samples);
-  slab->u[0] = slab->v[1] = slab->normal[2] = 1;
-  slab->u[1] = slab->u[2] = slab->v[0] = slab->v[2] = slab->normal[0] = slab->normal[1] = 0;
-  slab->st_distance = distance;
-  for (int k = 0; k < 4; ++k) slab->st_window[k] = k % 2 ? window : -window;
-  for (int k = 0; k < 2; ++k)
-    lit->page.axes[k] = (struct light_axis){.near_count = samples[k],
-                                            .far_count = samples[2 + k],
-                                            .half = 0.5,
-                                            .near_step = 1.0 / samples[k],
-                                            .far_low = -window,
-                                            .far_high = window,
-                                            .far_step = 2 * window / samples[2 + k],
-                                            .kappa = 1 / distance};
-  assert_int_equal(slab_alloc(slab, &error), RESULT_OK);
-  fill(lit, lamp, 1);
-  assert_int_equal(light_page_set_samples(&lit->page, &error), RESULT_OK);
-  lit->light = (struct light){.count = 1, .pages = &lit->page, .gain = 1, .scale = 1};
   assert_int_equal(gather_prepare(&lit->light, 1, GATHER_CUT, 0, threads, &lit->aids, &error),
                    RESULT_OK);
 }
 
+static void make(struct lit *lit, enum lamp lamp, const int samples[SLAB_AXES], double distance,
+                 int threads) {
+  static const double tint[3] = {1, 0.8, 0.3}, window[4] = {-slope, slope, -slope, slope};
+  struct slab slab = rough_slab(samples, distance, window, FRAME_PLAIN, FILL_CONSTANT, 0);
+  for (size_t p = 0; p < slab_sample_count(&slab); ++p) {
+    int index[SLAB_AXES];
+    double at[SLAB_AXES];
+    slab_locate(&slab, p, index);
+    for (int axis = 0; axis < SLAB_AXES; ++axis) at[axis] = slab_position(&slab, axis, index[axis]);
+    double value = radiance(lamp, at);
+    for (size_t c = 0; c < 3; ++c)
+      slab.rgb[3 * p + c] = value > 1e-9 ? (float)(tint[c] * value) : 0;
+  }
+  memset(lit, 0, sizeof *lit);
+  lit->light = load_light(&slab, 1);
+  slab_free(&slab);
+  prepare(lit, threads);
+}
+
 static void release(struct lit *lit) {
   gather_prepared_free(&lit->aids);
-  light_page_free(&lit->page);
+  light_free(&lit->light);
 }
 
 /* Through a point of the aperture and one of the window or a little beside it, turned towards
@@ -98,38 +69,30 @@ static void make_receivers(struct receiver *receivers, int count, double nearest
                            double distance) {
   uint64_t seed = 7;
   for (int k = 0; k < count; ++k) {
-    double z = nearest * pow(farthest / nearest, uniform(&seed)), p[3], n[3];
+    double z = random_log(&seed, nearest, farthest);
+    struct surfel at = {{0, 0, z}, {0}};
     for (int c = 0; c < 2; ++c) {
-      double a = uniform(&seed) - 0.5, s = window * 1.1 * (2 * uniform(&seed) - 1);
-      p[c] = s * z - (z / distance - 1) * a;
+      double a = random_between(&seed, -0.5, 0.5), s = 1.1 * slope * random_between(&seed, -1, 1);
+      at.p[c] = s * z - (z / distance - 1) * a;
     }
-    p[2] = z;
-    for (int c = 0; c < 3; ++c) n[c] = -p[c] / vector_length(p) + uniform(&seed) - 0.5;
-    vector_normalise(n);
-    receivers[k] = (struct receiver){.index = (uint64_t)k};
-    memcpy(receivers[k].position, p, sizeof p);
-    memcpy(receivers[k].normal, n, sizeof n);
-    memcpy(receivers[k].lift, n, sizeof n);
+    for (int c = 0; c < 3; ++c)
+      at.n[c] = random_between(&seed, -0.5, 0.5) - at.p[c] / vector_length(at.p);
+    vector_normalise(at.n);
+    receivers[k] = receiver_at(&at);
+    receivers[k].index = (uint64_t)k;
   }
 }
 
 static void sum(const struct lit *lit, enum gather_method method, double tolerance,
                 const struct receiver *receivers, int count, struct gathered *gathered) {
-  struct error error;
-  struct gather *gather;
   const struct gather_settings settings = {.lights = &lit->light,
                                            .light_count = 1,
                                            .aids = method == GATHER_CUT ? &lit->aids : NULL,
                                            .method = method,
                                            .tolerance = tolerance,
                                            .level = -1};
-  assert_int_equal(gather_create(&settings, &gather, &error), RESULT_OK);
-  for (int k = 0; k < count; k += TILE)
-    assert_int_equal(gather_light(gather, receivers + k, count - k < TILE ? count - k : TILE,
-                                  gathered + k, &error),
-                     RESULT_OK);
-  assert_true(gather_counts(gather)->error <= tolerance || method != GATHER_CUT);
-  gather_free(gather);
+  struct gather_counts counts = sum_light(&settings, receivers, count, gathered);
+  assert_true(counts.error <= tolerance || method != GATHER_CUT);
 }
 
 static double largest(const double rgb[3]) {
@@ -143,8 +106,7 @@ static double worst_error(const struct gathered *got, const struct gathered *exa
   for (int k = 0; k < count; ++k)
     for (int c = 0; c < 3; ++c) {
       double off = fabs(got[k].irradiance[c] - exact[k].irradiance[c]);
-      assert_true(isfinite(off));
-      if (off > 0) worst = fmax(worst, off / fmax(largest(exact[k].irradiance), 1e-4 * most));
+      if (off != 0) worst = larger(worst, off / fmax(largest(exact[k].irradiance), 1e-4 * most));
     }
   return worst;
 }
@@ -166,7 +128,7 @@ static double nodes(const struct lit *lit, double tolerance, const struct receiv
   for (int k = 0; k < count; ++k) {
     struct seen_page seen;
     double irradiance[3];
-    assert_true(seen_page_find(&lit->page, &receivers[k], &seen));
+    assert_true(seen_page_find(&lit->light.pages[0], &receivers[k], &seen));
     if (!cut_sum(lit->aids.trees[0], &seen, tolerance, 0, work, irradiance, &counts)) continue;
     assert_true(counts.error <= tolerance);
     ++*taken;
@@ -200,20 +162,17 @@ static void hold_lamps(double distance) {
   }
 }
 
-static void test_tolerance(void **state) {
-  (void)state;
+TEST(test_tolerance) {
   hold_lamps(INFINITY);
 }
 
-static void test_tolerance_st_plane(void **state) {
-  (void)state;
+TEST(test_tolerance_st_plane) {
   hold_lamps(3);
 }
 
-/* Few nodes, and fewer the farther away. (Near, the micro lights would need Gauss rules for this
- * tolerance: the cut may take its time.) */
-static void test_work(void **state) {
-  (void)state;
+/* Few nodes, and fewer the farther away. (Near the lamp the cut may need many: micro lights
+ * would need Gauss rules for this tolerance.) */
+TEST(test_work) {
   static const double most[][SCENES] = {{40, 1.1, 1.01}, {40, 6, 3}};
   struct receiver receivers[COUNT];
   for (int lamp = SMOOTH; lamp <= PEAKS; ++lamp) {
@@ -232,9 +191,9 @@ static void test_work(void **state) {
   }
 }
 
-/* Away from the lamp: micro lights at it, all views at once, few nodes; no step where they meet. */
-static void test_hand_over(void **state) {
-  (void)state;
+/* On the way from the lamp: first micro lights, then all views at once, then few nodes, and no step
+ * in the irradiance where one gives way to the next. */
+TEST(test_way_from_the_lamp) {
   const double tolerance = 1e-2;
   struct receiver receivers[COUNT];
   struct gathered exact[COUNT], got[COUNT];
@@ -260,8 +219,7 @@ static void test_hand_over(void **state) {
 }
 
 /* Sizes that do not halve, axes of one sample, any normal. */
-static void test_sizes(void **state) {
-  (void)state;
+TEST(test_sizes) {
   static const int sizes[][SLAB_AXES] = {{5, 3, 7, 4}, {1, 1, 8, 8},   {6, 5, 1, 1},
                                          {1, 3, 4, 1}, {2, 9, 33, 17}, {1, 1, 1, 1}};
   struct receiver receivers[COUNT];
@@ -280,27 +238,24 @@ static void test_sizes(void **state) {
 }
 
 /* Powers of two in the samples change nothing but the sum's exponent. */
-static void test_linear(void **state) {
-  (void)state;
+TEST(test_linear) {
   struct receiver receivers[COUNT];
   struct gathered once[COUNT], more[COUNT];
-  struct error error;
   struct lit lit;
   make(&lit, PEAKS, small, INFINITY, 2);
   make_receivers(receivers, COUNT, 2, 100, INFINITY);
   sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, once);
-  size_t floats = 3 * slab_sample_count(&lit.page.slab);
-  for (size_t k = 0; k < floats; ++k) lit.page.slab.rgb[k] *= 1024;
+  struct slab *slab = &lit.light.pages[0].slab;
+  for (size_t k = 0; k < 3 * slab_sample_count(slab); ++k) slab->rgb[k] *= 1024;
   gather_prepared_free(&lit.aids);
-  assert_int_equal(gather_prepare(&lit.light, 1, GATHER_CUT, 0, 2, &lit.aids, &error), RESULT_OK);
+  prepare(&lit, 2);
   sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, more);
   for (int k = 0; k < COUNT; ++k)
     for (int c = 0; c < 3; ++c) assert_true(more[k].irradiance[c] == 1024 * once[k].irradiance[c]);
   release(&lit);
 }
 
-static void test_threads(void **state) {
-  (void)state;
+TEST(test_threads) {
   struct receiver receivers[COUNT];
   struct gathered all[2][COUNT];
   struct lit lit;
@@ -348,7 +303,7 @@ static void hold_views(enum lamp lamp, double distance, int done[CUT_VIEWS_NODES
     for (int digit = 2; digit <= 4; ++digit) {
       struct seen_page seen;
       double rgb[3], error;
-      assert_true(seen_page_find(&lit.page, &receivers[r], &seen));
+      assert_true(seen_page_find(&lit.light.pages[0], &receivers[r], &seen));
       const int nodes = is_above(&seen) ? cut_views_nodes(&seen, pow(10, -digit), &error) : 0;
       if (nodes == 0) continue;
       assert_true(error <= pow(10, -digit));
@@ -364,8 +319,7 @@ static void hold_views(enum lamp lamp, double distance, int done[CUT_VIEWS_NODES
   release(&lit);
 }
 
-static void test_views(void **state) {
-  (void)state;
+TEST(test_views) {
   int done[CUT_VIEWS_NODES + 1] = {0};
   for (int lamp = PEAKS; lamp <= EDGES; ++lamp)
     for (int k = 0; k < 2; ++k) hold_views((enum lamp)lamp, k ? 3 : INFINITY, done);
@@ -373,8 +327,7 @@ static void test_views(void **state) {
 }
 
 /* As cut.h states. */
-static void test_memory(void **state) {
-  (void)state;
+TEST(test_memory) {
   struct lit lit;
   make(&lit, CONSTANT, small, INFINITY, 2);
   double stated = 64.0 * (1 + 4 + 16) * 32 * 32;
@@ -383,8 +336,7 @@ static void test_memory(void **state) {
 }
 
 /* Highlights, and aperture that the tangent plane cuts, are left to the micro lights. */
-static void test_refuses(void **state) {
-  (void)state;
+TEST(test_refuses) {
   struct lit lit;
   struct cut_counts counts = {0};
   struct cut_work *work = cut_work_make();
@@ -396,7 +348,7 @@ static void test_refuses(void **state) {
     double irradiance[3];
     receiver.shininess = kind == 1 ? 10 : 0;
     if (kind == 2) memcpy(receiver.normal, along, sizeof along);
-    assert_true(seen_page_find(&lit.page, &receiver, &seen));
+    assert_true(seen_page_find(&lit.light.pages[0], &receiver, &seen));
     assert_int_equal(cut_sum(lit.aids.trees[0], &seen, 1e-2, 0, work, irradiance, &counts),
                      kind == 0);
     cut_finish(work);
@@ -410,7 +362,7 @@ static void test_refuses(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_tolerance), cmocka_unit_test(test_tolerance_st_plane),
-      cmocka_unit_test(test_work),      cmocka_unit_test(test_hand_over),
+      cmocka_unit_test(test_work),      cmocka_unit_test(test_way_from_the_lamp),
       cmocka_unit_test(test_sizes),     cmocka_unit_test(test_linear),
       cmocka_unit_test(test_threads),   cmocka_unit_test(test_views),
       cmocka_unit_test(test_memory),    cmocka_unit_test(test_refuses),

@@ -1,5 +1,5 @@
-/* test_gl.c - the method gl against a plain sum over views, in double precision, with shadow
- * rays that are met by arithmetic on rectangles. */
+/* test_gl.c - the method gl against a plain sum over views, in double precision, whose
+ * shadows are arithmetic on rectangles. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,12 +7,12 @@
 
 #include "base/vector.h"
 #include "helpers.h"
-#include "oracle.h"
+#include "oracle/oracle.h"
 #include "slab/slab_resample.h"
 
 static const double window[4] = {-1.3, 1.2, -1.1, 1.4};
 
-/* A rectangle that stands in the way, spanned by two edges; NULL: none. */
+/* A rectangle that casts a shadow, spanned by two edges; NULL: none. */
 struct screen {
   double corner[3], along[2][3];
 };
@@ -34,7 +34,7 @@ static bool meets(const struct screen *screen, const double from[3], const doubl
 }
 
 /* Irradiance by one ray to the middle of each view's cell. */
-static void sum_views(const struct slab *slab, const struct receiver *receiver,
+static void sum_views(const struct slab *slab, const struct surfel *receiver,
                       const struct screen *screen, double rgb[3]) {
   struct oracle_place place;
   oracle_place(slab, receiver->p, receiver->n, &place);
@@ -49,26 +49,17 @@ static void sum_views(const struct slab *slab, const struct receiver *receiver,
     }
 }
 
-/* Relative root mean square of the difference. */
-static double rms(double (*a)[3], double (*b)[3], int count) {
-  double off = 0, all = 0;
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < 3; ++c) {
-      off += (a[k][c] - b[k][c]) * (a[k][c] - b[k][c]);
-      all += b[k][c] * b[k][c];
-    }
-  return sqrt(off / all);
+static double got[COUNT_MAX][3], right[COUNT_MAX][3];
+static struct surfel receivers[COUNT_MAX];
+
+/* Relative root mean square of the difference of what was got. */
+static double error_of(int count) {
+  return relative_rms(got, right, count);
 }
 
-static double got[COUNT_MAX][3], right[COUNT_MAX][3];
-static struct receiver receivers[COUNT_MAX];
-
-static void aim(const struct slab *slab, int count, double nearest, double farthest) {
-  uint32_t seed = 7;
-  for (int k = 0; k < count; ++k) {
-    double z = nearest * pow(farthest / nearest, random_number(&seed));
-    receivers[k] = aimed_receiver(slab, z, (enum receiver_kind)(k % RECEIVER_KINDS), &seed);
-  }
+static void aim_some(const struct slab *slab, int count, double nearest, double farthest) {
+  uint64_t seed = 7;
+  aim(slab, (const double[]){nearest, farthest}, RECEIVER_KINDS, &seed, receivers, count);
 }
 
 static void expect_sums(const struct slab *slabs, int pages, const struct screen *screen,
@@ -80,83 +71,73 @@ static void expect_sums(const struct slab *slabs, int pages, const struct screen
 }
 
 /* Every frame, mirrored ones too, both st planes, near and far; and a pass for each view. */
-static void sums_over_views(void **state) {
-  (void)state;
+TEST(sums_over_views) {
   static const int samples[SLAB_AXES] = {5, 4, 9, 7};
   static const double distances[] = {INFINITY, 1.7};
-  need_program();
   for (int frame = FRAME_PLAIN; frame <= FRAME_MIRRORED; ++frame)
     for (int d = 0; d < 2; ++d) {
       struct slab slab =
           rough_slab(samples, distances[d], window, (enum frame)frame, FILL_UNIFORM, 3);
       const char *file = write_light("views.tif", &slab, 1);
-      aim(&slab, 300, 0.2, 50);
+      aim_some(&slab, 300, 0.2, 50);
       expect_sums(&slab, 1, NULL, 300);
       irradiance(receivers, 300, got, "--light %s --method gl", file);
-      assert_near(rms(got, right, 300), 0, 2e-5);
+      assert_near(error_of(300), 0, 2e-5);
       irradiance(receivers, 300, got, "--light %s --method gl --gl-passes views", file);
-      assert_near(rms(got, right, 300), 0, 2e-5);
+      assert_near(error_of(300), 0, 2e-5);
       slab_free(&slab);
     }
 }
 
 /* Two pages, two lights, gains that differ by 10^12. */
-static void lights_and_pages_add_up(void **state) {
-  (void)state;
+TEST(lights_and_pages_add_up) {
   static const int samples[2][SLAB_AXES] = {{3, 4, 5, 6}, {6, 2, 4, 9}};
-  need_program();
   struct slab slabs[2];
   for (int k = 0; k < 2; ++k)
     slabs[k] = rough_slab(samples[k], k ? 2 : INFINITY, window, FRAME_TURNED, FILL_SIGNED, 5);
   const char *file = write_light("pages.tif", slabs, 2);
-  aim(&slabs[0], 200, 0.3, 30);
+  aim_some(&slabs[0], 200, 0.3, 30);
   expect_sums(slabs, 2, NULL, 200);
   for (int k = 0; k < 200; ++k)
     for (int c = 0; c < 3; ++c) right[k][c] *= 1e12 + 1;
   irradiance(receivers, 200, got, "--light '%s gain=1e12' --light %s --method gl", file, file);
-  assert_near(rms(got, right, 200), 0, 2e-5);
+  assert_near(error_of(200), 0, 2e-5);
   for (int k = 0; k < 2; ++k) slab_free(&slabs[k]);
 }
 
 /* 48 x 50 views are more than a texture array's 2048 layers; some of them are black. */
-static void more_views_than_layers(void **state) {
-  (void)state;
+TEST(more_views_than_layers) {
   static const int samples[SLAB_AXES] = {48, 50, 3, 3};
-  need_program();
   struct slab slab = rough_slab(samples, INFINITY, window, FRAME_TURNED, FILL_UNIFORM, 9);
   for (int j = 0; j < 4; ++j) memset(slab_at(&slab, 0, 3 * j, 0, 0), 0, 9 * sizeof(float));
   const char *file = write_light("many.tif", &slab, 1);
-  aim(&slab, 60, 0.3, 30);
+  aim_some(&slab, 60, 0.3, 30);
   expect_sums(&slab, 1, NULL, 60);
   irradiance(receivers, 60, got, "--light %s --method gl", file);
-  assert_near(rms(got, right, 60), 0, 2e-5);
+  assert_near(error_of(60), 0, 2e-5);
   slab_free(&slab);
 }
 
 /* Levels of the hierarchy have fewer views of the same energy: far away the same light. */
-static void levels_keep_the_light(void **state) {
-  (void)state;
+TEST(levels_keep_the_light) {
   static const int samples[SLAB_AXES] = {8, 8, 6, 6};
-  need_program();
   struct slab slab = rough_slab(samples, INFINITY, window, FRAME_PLAIN, FILL_UNIFORM, 11), half;
   const char *file = write_light("level.tif", &slab, 1);
   static const int fewer[SLAB_AXES] = {2, 2, 6, 6};
   assert_int_equal(slab_resample(&slab, fewer, &half, NULL), RESULT_OK);
-  aim(&slab, 200, 5, 50);
+  aim_some(&slab, 200, 5, 50);
   expect_sums(&half, 1, NULL, 200);
   irradiance(receivers, 200, got, "--light %s --method gl --level 2", file);
-  assert_near(rms(got, right, 200), 0, 2e-5);
+  assert_near(error_of(200), 0, 2e-5);
   slab_free(&slab);
   slab_free(&half);
 }
 
 /* The flux through a plane in front is the slab's, whatever its resolution. */
-static void energy_is_independent_of_resolution(void **state) {
-  (void)state;
+TEST(energy_is_independent_of_resolution) {
   enum { SIDE = 60 };
   static const double narrow[4] = {-0.5, 0.5, -0.5, 0.5};
   static const int samples[SLAB_AXES] = {12, 12, 12, 12};
-  need_program();
   struct slab slab = rough_slab(samples, INFINITY, narrow, FRAME_PLAIN, FILL_UNIFORM, 13), other;
   double flux[3];
   /* Black at the window's rim: the light on the plane is continuous. */
@@ -174,7 +155,7 @@ static void energy_is_independent_of_resolution(void **state) {
     for (int k = 0; k < SIDE * SIDE; ++k) {
       double a = ((k % SIDE + 0.5) / SIDE * 2 - 1) * half;
       double b = ((k / SIDE + 0.5) / SIDE * 2 - 1) * half; /* NOLINT(bugprone-integer-division) */
-      receivers[k] = (struct receiver){.n = {-slab.normal[0], -slab.normal[1], -slab.normal[2]}};
+      receivers[k] = (struct surfel){.n = {-slab.normal[0], -slab.normal[1], -slab.normal[2]}};
       slab_point(&slab, a, b, z, receivers[k].p);
     }
     irradiance(receivers, SIDE * SIDE, got, "--light %s --method gl",
@@ -223,7 +204,6 @@ static void mesh_add_screen(struct mesh *mesh, const struct screen *screen) {
 static struct slab lamp(const char **file) {
   static const int samples[SLAB_AXES] = {6, 6, 8, 8};
   struct slab slab = rough_slab(samples, INFINITY, window, FRAME_PLAIN, FILL_UNIFORM, 17);
-  need_program();
   *file = write_light("lamp.tif", &slab, 1);
   return slab;
 }
@@ -232,15 +212,14 @@ static struct slab lamp(const char **file) {
 static void spread(int side, double z, double half) {
   for (int k = 0; k < side * side; ++k) {
     int row = k / side;
-    receivers[k] = (struct receiver){
+    receivers[k] = (struct surfel){
         .p = {((k % side + 0.37) / side * 2 - 1) * half, ((row + 0.41) / side * 2 - 1) * half, z},
         .n = {0, 0, -1}};
   }
 }
 
 /* The shadow of a rectangle that stands askew, from each view a sharp one. */
-static void shadows_are_where_rays_are_stopped(void **state) {
-  (void)state;
+TEST(shadows_are_where_rays_are_stopped) {
   static const struct screen screen = {{-0.3, -0.2, 1.1}, {{0.7, 0.1, 0.3}, {-0.1, 0.7, 0}}};
   const char *file;
   struct slab slab = lamp(&file);
@@ -250,22 +229,21 @@ static void shadows_are_where_rays_are_stopped(void **state) {
   spread(60, 3, 3);
   expect_sums(&slab, 1, &screen, 3600);
   irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s", file, mesh.path);
-  double fine = rms(got, right, 3600);
+  double fine = error_of(3600);
   irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s --shadow-map 128", file,
              mesh.path);
-  double coarse = rms(got, right, 3600);
+  double coarse = error_of(3600);
   print_message("# shadows: %.2g with 2048 texels, %.2g with 128\n", fine, coarse);
   assert_true(fine < 0.03 && coarse < 0.15);
   irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s --gl-passes views", file,
              mesh.path);
-  assert_near(rms(got, right, 3600), fine, 1e-6);
+  assert_near(error_of(3600), fine, 1e-6);
   slab_free(&slab);
 }
 
 /* A map for 2 x 2 views takes all of their light or none: in the rim of a shadow at most half
  * of a group's share is wrong, and beside it nothing. */
-static void groups_err_in_the_rim_alone(void **state) {
-  (void)state;
+TEST(groups_err_in_the_rim_alone) {
   static const struct screen screen = {{-9, 0, 1.5}, {{18, 0, 0}, {0, 9, 0}}}; /* half a plane */
   const char *file;
   struct slab slab = lamp(&file);
@@ -285,7 +263,7 @@ static void groups_err_in_the_rim_alone(void **state) {
     double off = fabs(got[k][0] - grouped[k][0]) / right[k][0];
     /* The lamp's edges, through the screen's, meet the receivers at y = -0.5 and 0.5. */
     if (fabs(receivers[k].p[1]) > 0.51) assert_near(off, 0, 1e-6);
-    worst = fmax(worst, off);
+    worst = larger(worst, off);
   }
   print_message("# a group of 2 x 2 views: up to %.2g of the light\n", worst);
   assert_true(worst > 0.1 && worst <= 1.1 / 6);
@@ -294,12 +272,11 @@ static void groups_err_in_the_rim_alone(void **state) {
 
 /* Nothing that is convex, as seen from the lamp, casts a shadow on itself: a slope down to
  * grazing light, and a bowl of flat facets. */
-static void no_acne(void **state) {
-  (void)state;
+TEST(no_acne) {
   enum { N = 24 };
   const char *file;
   struct slab slab = lamp(&file);
-  uint32_t seed = 23;
+  uint64_t seed = 23;
   for (int kind = 0; kind < 4; ++kind) {
     struct mesh mesh = mesh_start("acne.obj");
     int count = 0;
@@ -315,7 +292,7 @@ static void no_acne(void **state) {
         }
         mesh_add(&mesh, (const double(*)[3])corner, 3);
         for (int k = 0; k < 2; ++k) vector_subtract(corner[k + 1], corner[0], across[k]);
-        struct receiver *receiver = &receivers[count++];
+        struct surfel *receiver = &receivers[count++];
         double a = random_number(&seed), b = random_number(&seed) * (1 - a);
         for (int c = 0; c < 3; ++c)
           receiver->p[c] = corner[0][c] + a * across[0][c] + b * across[1][c];
@@ -325,15 +302,14 @@ static void no_acne(void **state) {
     fclose(mesh.file);
     expect_sums(&slab, 1, NULL, count);
     irradiance(receivers, count, got, "--light %s --method gl --mesh %s", file, mesh.path);
-    print_message("# acne, tilt %g: %.2g\n", tilt, rms(got, right, count));
-    assert_near(rms(got, right, count), 0, 2e-5);
+    print_message("# acne, tilt %g: %.2g\n", tilt, error_of(count));
+    assert_near(error_of(count), 0, 2e-5);
   }
   slab_free(&slab);
 }
 
 /* Behind a wall it is dark, two texels of the map behind it too, and in the foot of a wall. */
-static void no_leaks(void **state) {
-  (void)state;
+TEST(no_leaks) {
   static const struct screen plate = {{-9, -9, 3}, {{18, 0, 0}, {0, 18, 0}}};
   static const struct screen wall = {{0.3, -9, 1}, {{0, 18, 0}, {0, 0, 2.0000001}}};
   const char *file;
@@ -350,9 +326,8 @@ static void no_leaks(void **state) {
   memset(right, 0, sizeof right);
   expect_sums(&slab, 1, &wall, 3600);
   irradiance(receivers, 3600, got, "--light %s --method gl --mesh %s", file, mesh.path);
-  print_message("# a wall on the floor: %.2g; in its foot %.2g\n", rms(got, right, 3600),
-                rms(got, right, 30));
-  assert_true(rms(got, right, 3600) < 0.03 && rms(got, right, 30) < 0.05);
+  print_message("# a wall on the floor: %.2g; in its foot %.2g\n", error_of(3600), error_of(30));
+  assert_true(error_of(3600) < 0.03 && error_of(30) < 0.05);
   slab_free(&slab);
 }
 

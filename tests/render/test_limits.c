@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "helpers.h"
-#include "oracle.h"
+#include "oracle/oracle.h"
 
 enum { COUNT = 48 };
 
@@ -19,14 +20,8 @@ enum { METHODS = sizeof methods / sizeof methods[0] };
 /* Nine printed digits round by up to 5e-9; two of them by twice that. */
 #define PRINTED 5.1e-9
 
-static double size(const double a[3]) {
-  return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
-static void aim(const struct slab *slab, struct receiver receivers[COUNT], uint32_t seed) {
-  for (int k = 0; k < COUNT; ++k)
-    receivers[k] = aimed_receiver(slab, 0.05 * pow(200, random_number(&seed)),
-                                  (enum receiver_kind)(k % RECEIVER_KINDS), &seed);
+static void aim_all(const struct slab *slab, struct surfel receivers[COUNT], uint64_t seed) {
+  aim(slab, (const double[]){0.05, 10}, RECEIVER_KINDS, &seed, receivers, COUNT);
 }
 
 /* |a - b| <= tolerance * scale in each channel of each receiver. */
@@ -36,8 +31,8 @@ static void assert_close(double a[][3], double b[][3], int count, double toleran
       assert_near(a[k][c], b[k][c], tolerance * fmax(fabs(a[k][c]), fabs(b[k][c])));
 }
 
-static void assert_oracle(double rgb[][3], const struct slab *slab,
-                          const struct receiver *receivers, int count, double tolerance) {
+static void assert_oracle(double rgb[][3], const struct slab *slab, const struct surfel *receivers,
+                          int count, double tolerance) {
   for (int k = 0; k < count; ++k) {
     struct oracle_value value = oracle_irradiance(slab, receivers[k].p, receivers[k].n);
     for (int c = 0; c < 3; ++c)
@@ -49,20 +44,18 @@ static void assert_oracle(double rgb[][3], const struct slab *slab,
 
 /* From above, a point of the aperture is all directions: what is left is the
  * integral over the window. */
-static void test_touching(void **state) {
-  (void)state;
+TEST(test_touching) {
   static const double distances[] = {INFINITY, 0.7};
-  need_program();
   for (int d = 0; d < 2; ++d) {
     struct slab slab = rough_slab(grid, distances[d], ordinary, FRAME_PLAIN, FILL_UNIFORM, 3);
     const char *light = write_light("touch.exr", &slab, 1);
-    struct receiver at[COUNT], above[COUNT];
+    struct surfel at[COUNT], above[COUNT];
     double touching[COUNT][3], near[COUNT][3];
-    uint32_t seed = 5;
+    uint64_t seed = 5;
     for (int k = 0; k < COUNT; ++k) {
-      at[k] = (struct receiver){{0}, {0, 0, -1}};
+      at[k] = (struct surfel){{0}, {0, 0, -1}};
       if (k % 2) random_direction(&seed, at[k].n);
-      for (int c = 0; c < 2; ++c) at[k].p[c] = 0.998 * (random_number(&seed) - 0.5);
+      for (int c = 0; c < 2; ++c) at[k].p[c] = random_between(&seed, -0.499, 0.499);
       above[k] = at[k];
       above[k].p[2] = 1e-12;
     }
@@ -75,20 +68,18 @@ static void test_touching(void **state) {
   }
 }
 
-static void test_beside_and_behind(void **state) {
-  (void)state;
+TEST(test_beside_and_behind) {
   static const double distances[] = {INFINITY, 0.7};
-  need_program();
   for (int d = 0; d < 2; ++d)
     for (int m = 0; m < METHODS; ++m) {
       struct slab slab = rough_slab(grid, distances[d], ordinary, FRAME_PLAIN, FILL_UNIFORM, 3);
       const char *light = write_light("dark.exr", &slab, 1);
-      struct receiver receivers[COUNT] = {{{0}, {0}}};
+      struct surfel receivers[COUNT] = {{{0}, {0}}};
       double rgb[COUNT][3];
-      uint32_t seed = 7;
+      uint64_t seed = 7;
       for (int k = 0; k < COUNT; ++k) {
-        double *p = receivers[k].p, far = 0.5 + pow(10, 6 * random_number(&seed) - 3);
-        for (int c = 0; c < 3; ++c) p[c] = 4 * random_number(&seed) - 2;
+        double *p = receivers[k].p, far = 0.5 + random_log(&seed, 1e-3, 1e3);
+        for (int c = 0; c < 3; ++c) p[c] = random_between(&seed, -2, 2);
         p[2] = k % 3 == 0 ? 0 : -far;
         if (p[2] == 0) p[k & 1] = k & 2 ? far : -far;
         random_direction(&seed, receivers[k].n);
@@ -102,24 +93,21 @@ static void test_beside_and_behind(void **state) {
 
 /* ---- Lines of the grids under the receiver, and coinciding with each other:
  * cells of 1/8 in uv and in st, the foot on one of them. At distance 2 there
- * are receivers on the st plane too. Beside it, lines of st that had been
- * nowhere cross the aperture: more micro lights, so other samples of them. */
-static void test_on_lines(void **state) {
-  (void)state;
+ * are receivers on the st plane too. Beside that plane more lines of st cross
+ * the aperture: more micro lights, so other samples of them. */
+TEST(test_on_lines) {
   static const double window[4] = {-0.5, 0.5, -0.5, 0.5}, distances[] = {INFINITY, 16, 2};
-  need_program();
   for (int d = 0; d < 3; ++d)
     for (int m = 0; m < (d == 2 ? 2 : 4); ++m) {
       struct slab slab =
           rough_slab((const int[]){8, 8, 8, 8}, distances[d], window, FRAME_PLAIN, FILL_EXTREME, 4);
       const char *light = write_light("lines.exr", &slab, 1);
-      struct receiver at[COUNT], beside[COUNT];
+      struct surfel at[COUNT], beside[COUNT];
       double on[COUNT][3], off[COUNT][3];
       for (int k = 0; k < COUNT; ++k) {
-        at[k] = (struct receiver){{(k % 9 - 4) / 16.0, (k % 7 - 3) / 16.0, ldexp(1, k % 5 - 2)},
-                                  {0.25, 0.125 * (k % 3), -1}};
-        double length = size(at[k].n);
-        for (int c = 0; c < 3; ++c) at[k].n[c] /= length;
+        at[k] = (struct surfel){{(k % 9 - 4) / 16.0, (k % 7 - 3) / 16.0, ldexp(1, k % 5 - 2)},
+                                {0.25, 0.125 * (k % 3), -1}};
+        vector_normalise(at[k].n);
         beside[k] = at[k];
         for (int c = 0; c < 3; ++c) beside[k].p[c] = nextafter(at[k].p[c], k & (1 << c) ? 9 : -9);
       }
@@ -137,18 +125,16 @@ static void scale_vector(double a[3], double by) {
   for (int k = 0; k < 3; ++k) a[k] *= by;
 }
 
-static void test_units(void **state) {
-  (void)state;
+TEST(test_units) {
   static const double distances[] = {INFINITY, 0.7}, factors[] = {0x1p40, 0x1p-40};
-  need_program();
   for (int d = 0; d < 2; ++d)
     for (int f = 0; f < 2; ++f)
       for (int m = 0; m < METHODS; ++m) {
         double by = factors[f];
         struct slab slab = rough_slab(grid, distances[d], ordinary, FRAME_TURNED, FILL_UNIFORM, 6);
-        struct receiver receivers[COUNT];
+        struct surfel receivers[COUNT];
         double plain[COUNT][3], stored[COUNT][3], placed[COUNT][3];
-        aim(&slab, receivers, 11);
+        aim_all(&slab, receivers, 11);
         const char *light = write_light("unit.exr", &slab, 1);
         irradiance(receivers, COUNT, plain, "--light '%s' --method %s", light, methods[m]);
         for (int k = 0; k < COUNT; ++k) scale_vector(receivers[k].p, by);
@@ -166,9 +152,7 @@ static void test_units(void **state) {
 
 /* ---- What is linear. */
 
-static void test_pages(void **state) {
-  (void)state;
-  need_program();
+TEST(test_pages) {
   struct slab slabs[2] = {
       rough_slab(grid, INFINITY, ordinary, FRAME_TURNED, FILL_UNIFORM, 1),
       rough_slab((const int[]){1, 2, 3, 8}, 0.7, ordinary, FRAME_MIRRORED, FILL_EXTREME, 2)};
@@ -176,9 +160,9 @@ static void test_pages(void **state) {
   memcpy(slabs[1].normal, slabs[0].normal, sizeof slabs[0].normal);
   memcpy(slabs[1].u, slabs[0].v, sizeof slabs[0].u); /* mirrored */
   memcpy(slabs[1].v, slabs[0].u, sizeof slabs[0].v);
-  struct receiver receivers[COUNT];
+  struct surfel receivers[COUNT];
   double each[2][COUNT][3], both[COUNT][3], sum[COUNT][3], lights[COUNT][3];
-  aim(&slabs[0], receivers, 21);
+  aim_all(&slabs[0], receivers, 21);
   const char *first = write_light("first.exr", &slabs[0], 1);
   const char *second = write_light("second.tif", &slabs[1], 1);
   const char *all = write_light("both.tif", slabs, 2);
@@ -199,14 +183,12 @@ static void test_pages(void **state) {
   slab_free(&slabs[0]), slab_free(&slabs[1]);
 }
 
-static void test_gain(void **state) {
-  (void)state;
+TEST(test_gain) {
   static const double gains[] = {0.5, 3, 1e-20, 1e20, 0};
-  need_program();
   struct slab slab = rough_slab(grid, 0.7, ordinary, FRAME_TURNED, FILL_UNIFORM, 1);
-  struct receiver receivers[COUNT];
+  struct surfel receivers[COUNT];
   double one[COUNT][3], other[COUNT][3];
-  aim(&slab, receivers, 23);
+  aim_all(&slab, receivers, 23);
   const char *light = write_light("gain.exr", &slab, 1);
   for (int m = 0; m < METHODS; ++m) {
     irradiance(receivers, COUNT, one, "--light '%s' --method %s", light, methods[m]);
@@ -226,20 +208,18 @@ static void test_gain(void **state) {
 static const double negative_rounding[METHODS] = {2e-6, 2 * PRINTED, 1e-6, 1e-6, 1e-6};
 
 /* c = a - 2 b in the samples, exactly: 24 bits hold multiples of 1/1024. */
-static void test_negative_samples(void **state) {
-  (void)state;
-  need_program();
+TEST(test_negative_samples) {
   struct slab slabs[3];
-  struct receiver receivers[COUNT];
+  struct surfel receivers[COUNT];
   double rgb[3][COUNT][3];
   for (int s = 0; s < 3; ++s) {
     slabs[s] = rough_slab(grid, 0.7, ordinary, FRAME_TURNED, FILL_UNIFORM, 1);
-    fill_slab(&slabs[s], FILL_UNIFORM, (uint32_t)s + 40);
+    fill_slab(&slabs[s], FILL_UNIFORM, (uint64_t)s + 40);
     for (size_t k = 0; k < 3 * slab_sample_count(&slabs[s]); ++k)
       slabs[s].rgb[k] =
           s < 2 ? rintf(1024 * slabs[s].rgb[k]) / 1024 : slabs[0].rgb[k] - 2 * slabs[1].rgb[k];
   }
-  aim(&slabs[0], receivers, 29);
+  aim_all(&slabs[0], receivers, 29);
   for (int m = 0; m < METHODS; ++m) {
     for (int s = 0; s < 3; ++s) {
       const char *light = write_light("signed.exr", &slabs[s], 1);
@@ -260,8 +240,8 @@ static void test_negative_samples(void **state) {
 /* ---- Placement: receivers made in lamp space, moved by hand. */
 
 /* Rows: images of x, y, z, then of the origin. */
-static void place(const double matrix[4][3], double scale, const struct receiver *from,
-                  struct receiver *to) {
+static void place(const double matrix[4][3], double scale, const struct surfel *from,
+                  struct surfel *to) {
   for (int c = 0; c < 3; ++c) {
     to->p[c] = matrix[3][c];
     to->n[c] = 0;
@@ -272,19 +252,14 @@ static void place(const double matrix[4][3], double scale, const struct receiver
   }
 }
 
-static void cross(const double a[3], const double b[3], double c[3]) {
-  for (int k = 0; k < 3; ++k)
-    c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
 /* Unit vectors: forward, up made perpendicular to it, and their cross product. */
 static void triad(const double forward[3], const double up[3], double to[3][3]) {
-  double along = 0;
-  for (int k = 0; k < 3; ++k) to[0][k] = forward[k] / size(forward);
-  for (int k = 0; k < 3; ++k) along += up[k] * to[0][k];
+  memcpy(to[0], forward, sizeof to[0]);
+  vector_normalise(to[0]);
+  double along = vector_dot(up, to[0]);
   for (int k = 0; k < 3; ++k) to[1][k] = up[k] - along * to[0][k];
-  scale_vector(to[1], 1 / size(to[1]));
-  cross(to[0], to[1], to[2]);
+  vector_normalise(to[1]);
+  vector_cross(to[0], to[1], to[2]);
 }
 
 struct placement {
@@ -295,7 +270,7 @@ struct placement {
 static void placement_matrix(const struct placement *where, const struct slab *slab,
                              double matrix[4][3]) {
   double forward[3], from[3][3], to[3][3];
-  for (int k = 0; k < 3; ++k) forward[k] = where->toward[k] - where->at[k];
+  vector_subtract(where->toward, where->at, forward);
   triad(slab->normal, slab->v, from);
   triad(forward, where->up, to);
   for (int r = 0; r < 3; ++r)
@@ -310,17 +285,15 @@ static const struct placement placements[] = {{{0, 0, 0}, {0, -1, 0}, {0, 0, 1},
                                               {{3, -2, 7}, {1, 1, 1}, {0.2, 1, 0.3}, 2.5},
                                               {{-10, 4, 0.5}, {-10, 4, -8}, {1, 0, 0}, 0.125}};
 
-static void test_placement(void **state) {
-  (void)state;
-  need_program();
+TEST(test_placement) {
   for (int p = 0; p < 3; ++p)
     for (int f = 0; f < 3; ++f) {
       const struct placement *w = &placements[p];
       struct slab slab = rough_slab(grid, f == 1 ? 0.7 : INFINITY, ordinary, (enum frame)f,
-                                    FILL_EXTREME, (uint32_t)(p + 50));
-      struct receiver receivers[COUNT], placed[COUNT];
+                                    FILL_EXTREME, (uint64_t)(p + 50));
+      struct surfel receivers[COUNT], placed[COUNT];
       double matrix[4][3], rgb[COUNT][3];
-      aim(&slab, receivers, (uint32_t)(60 + f));
+      aim_all(&slab, receivers, (uint64_t)(60 + f));
       placement_matrix(w, &slab, matrix);
       for (int k = 0; k < COUNT; ++k) place(matrix, w->scale, &receivers[k], &placed[k]);
       const char *light = write_light("placed.exr", &slab, 1);
@@ -335,25 +308,21 @@ static void test_placement(void **state) {
 }
 
 /* Turned, moved, scaled by 1.5, and mirrored where `mirrored`. */
-static void any_matrix(bool mirrored, uint32_t seed, double matrix[4][3]) {
-  double forward[3], up[3];
-  random_direction(&seed, forward), random_direction(&seed, up);
-  triad(forward, up, matrix);
-  for (int r = 0; r < 3; ++r) scale_vector(matrix[r], r == 1 && mirrored ? -1.5 : 1.5);
-  for (int c = 0; c < 3; ++c) matrix[3][c] = 20 * random_number(&seed) - 10;
+static void any_matrix(bool mirrored, uint64_t seed, double matrix[4][3]) {
+  random_frame(&seed, mirrored ? -1 : 1, matrix);
+  for (int r = 0; r < 3; ++r) scale_vector(matrix[r], 1.5);
+  for (int c = 0; c < 3; ++c) matrix[3][c] = random_between(&seed, -10, 10);
 }
 
-static void test_matrix(void **state) {
-  (void)state;
-  need_program();
+TEST(test_matrix) {
   for (int mirrored = 0; mirrored < 2; ++mirrored)
     for (int f = 0; f < 3; ++f) {
       struct slab slab = rough_slab(grid, f == 1 ? INFINITY : 0.7, ordinary, (enum frame)f,
-                                    FILL_EXTREME, (uint32_t)(70 + f));
-      struct receiver receivers[COUNT], placed[COUNT];
+                                    FILL_EXTREME, (uint64_t)(70 + f));
+      struct surfel receivers[COUNT], placed[COUNT];
       double m[4][3], rgb[COUNT][3];
-      aim(&slab, receivers, (uint32_t)(80 + f));
-      any_matrix(mirrored, (uint32_t)(90 + f), m);
+      aim_all(&slab, receivers, (uint64_t)(80 + f));
+      any_matrix(mirrored, (uint64_t)(90 + f), m);
       for (int k = 0; k < COUNT; ++k) place(m, 1.5, &receivers[k], &placed[k]);
       const char *light = write_light("matrix.exr", &slab, 1);
       irradiance(placed, COUNT, rgb,

@@ -1,20 +1,12 @@
 /* test_shaft.c - where it says that nothing stands between receivers and an aperture, no
  * segment meets a triangle (brute force); and it says so where users would expect it. */
-#include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "base/vector.h"
+#include "oracle/random.h"
 #include "scene/scene.h"
 #include "shadow/shaft.h"
 #include "testing.h"
 
 enum { TRIANGLES = 40, RECEIVERS = 5, RAYS = 200, CASES = 400 };
-
-static double uniform(uint32_t *seed) {
-  *seed = *seed * 1664525 + 1013904223;
-  return (double)(*seed >> 8) / (1 << 24);
-}
 
 struct case_ {
   double position[3 * TRIANGLES][3], receivers[RECEIVERS][3], corners[4][3];
@@ -22,52 +14,49 @@ struct case_ {
   struct scene scene;
 };
 
-static void subtract(const double a[3], const double b[3], double out[3]) {
-  for (int c = 0; c < 3; ++c) out[c] = a[c] - b[c];
-}
-
 static double triple(const double a[3], const double b[3], const double c[3]) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
+  double across[3];
+  vector_cross(b, c, across);
+  return vector_dot(a, across);
 }
 
 /* Signs of the volumes that the segment makes with the triangle's edges and plane. */
 static bool meets(const double from[3], const double to[3], const double corner[3][3]) {
   double a[3], b[3], d[3], start[3], end[3];
-  subtract(corner[1], corner[0], a);
-  subtract(corner[2], corner[0], b);
-  subtract(from, corner[0], start);
-  subtract(to, corner[0], end);
-  subtract(to, from, d);
+  vector_subtract(corner[1], corner[0], a);
+  vector_subtract(corner[2], corner[0], b);
+  vector_subtract(from, corner[0], start);
+  vector_subtract(to, corner[0], end);
+  vector_subtract(to, from, d);
   if ((triple(a, b, start) > 0) == (triple(a, b, end) > 0)) return false;
   bool side[3];
   for (int k = 0; k < 3; ++k) {
     double x[3], y[3];
-    subtract(corner[k], from, x);
-    subtract(corner[(k + 1) % 3], from, y);
+    vector_subtract(corner[k], from, x);
+    vector_subtract(corner[(k + 1) % 3], from, y);
     side[k] = triple(d, x, y) > 0;
   }
   return side[0] == side[1] && side[1] == side[2];
 }
 
 /* Small triangles here and there; receivers close together; a rectangle. */
-static void fill(struct case_ *now, uint32_t *seed) {
-  double size = pow(10, -2 * uniform(seed)), spread = pow(10, -2 * uniform(seed));
+static void fill(struct case_ *now, uint64_t *seed) {
+  double size = random_log(seed, 0.01, 1), spread = random_log(seed, 0.01, 1);
   for (int k = 0; k < TRIANGLES; ++k)
     for (int c = 0; c < 3; ++c) {
-      double middle = 4 * uniform(seed) - 2;
+      double middle = random_between(seed, -2, 2);
       for (int corner = 0; corner < 3; ++corner)
-        now->position[3 * k + corner][c] = middle + size * (uniform(seed) - 0.5);
+        now->position[3 * k + corner][c] = middle + size * random_between(seed, -0.5, 0.5);
       now->triangle[k][c] = 3 * k + c;
     }
   double place[3], along[2][3];
   for (int c = 0; c < 3; ++c) {
-    place[c] = 4 * uniform(seed) - 2;
+    place[c] = random_between(seed, -2, 2);
     for (int k = 0; k < RECEIVERS; ++k)
-      now->receivers[k][c] = place[c] + spread * (uniform(seed) - 0.5);
-    place[c] = 4 * uniform(seed) - 2;
-    along[0][c] = uniform(seed) - 0.5;
-    along[1][c] = uniform(seed) - 0.5;
+      now->receivers[k][c] = place[c] + spread * random_between(seed, -0.5, 0.5);
+    place[c] = random_between(seed, -2, 2);
+    along[0][c] = random_between(seed, -0.5, 0.5);
+    along[1][c] = random_between(seed, -0.5, 0.5);
     for (int k = 0; k < 4; ++k)
       now->corners[k][c] = place[c] + (k & 1) * along[0][c] + (k >> 1) * along[1][c];
   }
@@ -77,10 +66,10 @@ static void fill(struct case_ *now, uint32_t *seed) {
                               .corners = now->triangle};
 }
 
-static bool any_segment_meets(const struct case_ *now, uint32_t *seed) {
+static bool any_segment_meets(const struct case_ *now, uint64_t *seed) {
   for (int ray = 0; ray < RAYS; ++ray) {
     const double *from = now->receivers[ray % RECEIVERS];
-    double u = uniform(seed), v = uniform(seed), to[3];
+    double u = random_number(seed), v = random_number(seed), to[3];
     for (int c = 0; c < 3; ++c)
       to[c] = now->corners[0][c] + u * (now->corners[1][c] - now->corners[0][c]) +
               v * (now->corners[2][c] - now->corners[0][c]);
@@ -100,10 +89,9 @@ static bool ask(const struct scene *scene, const double (*receivers)[3], int cou
   return answer;
 }
 
-static void test_certain(void **state) {
-  (void)state;
+TEST(test_certain) {
   static struct case_ now;
-  uint32_t seed = 7;
+  uint64_t seed = 7;
   int open = 0, needless = 0;
   for (int k = 0; k < CASES; ++k) {
     fill(&now, &seed);
@@ -119,8 +107,7 @@ static void test_certain(void **state) {
 }
 
 /* A floor and a wall: receivers just above them, a lamp above. */
-static void test_floor(void **state) {
-  (void)state;
+TEST(test_floor) {
   double position[8][3] = {{-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9},
                            {-9, 0, 9},  {9, 0, 9},  {9, 9, 9}, {-9, 9, 9}};
   int corners[4][3] = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};

@@ -45,8 +45,7 @@ static void progress(void *context, double done) {
   job->done = done;
 }
 
-static void test_all_once(void **state) {
-  (void)state;
+TEST(test_all_once) {
   for (int threads = 1; threads <= THREADS; ++threads) {
     struct job job = {.threads = threads, .failing = {-1, -1}};
     struct error error = {""};
@@ -61,8 +60,7 @@ static void test_all_once(void **state) {
   }
 }
 
-static void test_lowest_failure(void **state) {
-  (void)state;
+TEST(test_lowest_failure) {
   for (int k = 0; k < 20; ++k) {
     struct job job = {.threads = THREADS, .failing = {100, 101}};
     struct error error = {""};
@@ -72,8 +70,7 @@ static void test_lowest_failure(void **state) {
   }
 }
 
-static void test_few(void **state) {
-  (void)state;
+TEST(test_few) {
   struct job job = {.threads = 2, .failing = {-1, -1}};
   struct error error = {""};
   assert_int_equal(tiles_run(5, 0, work, NULL, &job, &error), RESULT_OK);

@@ -60,8 +60,7 @@ static void assert_close(double a, double b) {
 
 /* The scene turns and moves as the mouse does, the camera as the arrows say; what it looks at
  * stays in the middle, at its distance. */
-static void the_camera_turns(void **unused) {
-  (void)unused;
+TEST(the_camera_turns) {
   struct viewer_state state = start();
   double nearer[3], before[3], after[3];
   for (int c = 0; c < 3; ++c) nearer[c] = 0.8 * camera.at[c] + 0.2 * camera.from[c];
@@ -83,8 +82,7 @@ static void the_camera_turns(void **unused) {
   viewer_state_free(&state);
 }
 
-static void the_camera_moves(void **unused) {
-  (void)unused;
+TEST(the_camera_moves) {
   struct viewer_state state = start();
   double on[3], distance = viewer_camera_distance(&camera);
   viewer_state_drag(&state, 0.25, -0.1, true);
@@ -114,8 +112,7 @@ static void find_axis(const struct viewer_light *light, int row, double axis[3])
   memcpy(axis, light->matrix[row], 3 * sizeof *axis);
 }
 
-static void lights_move_and_turn(void **unused) {
-  (void)unused;
+TEST(lights_move_and_turn) {
   struct viewer_state state = start();
   struct viewer_light *light = &state.lights[1];
   double before[3], after[3], axes[3][3], up[3], moved[3];
@@ -165,8 +162,7 @@ static void lights_move_and_turn(void **unused) {
   viewer_state_free(&state);
 }
 
-static void letters_choose(void **unused) {
-  (void)unused;
+TEST(letters_choose) {
   struct viewer_state state = start();
   press(&state, "tab");
   assert_int_equal(state.selected, 1);
@@ -199,8 +195,7 @@ static void letters_choose(void **unused) {
   viewer_state_free(&state);
 }
 
-static void what_is_no_key_is_told(void **unused) {
-  (void)unused;
+TEST(what_is_no_key_is_told) {
   static const char *const wrong[] = {"lefft", "left shift+q", " shift+", "pageupp", "h leftright"};
   for (int k = 0; k < 5; ++k) {
     const char *at = wrong[k];
@@ -212,8 +207,7 @@ static void what_is_no_key_is_told(void **unused) {
 }
 
 /* What has not moved is told as it was given; shells see one word a word. */
-static void the_command_is_complete(void **unused) {
-  (void)unused;
+TEST(the_command_is_complete) {
   static const char *texts[] = {"a lamp.tif at=0,0,0 gain=2", "b.tif matrix=..."};
   struct viewer_state state = start();
   struct viewer_arguments arguments = {
@@ -240,8 +234,7 @@ static void the_command_is_complete(void **unused) {
 }
 
 /* An I is a column of 7 dots with 2 x 3 of serifs less one; what has no room is cut off. */
-static void letters_have_their_dots(void **unused) {
-  (void)unused;
+TEST(letters_have_their_dots) {
   struct viewer_text text;
   struct error error;
   assert_int_equal(viewer_text_create(640, 480, &text, &error), RESULT_OK);

@@ -1,15 +1,10 @@
 /* helpers.c - see helpers.h. */
 #include "helpers.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-double random_number(uint32_t *seed) {
-  *seed = *seed * 1664525u + 1013904223u;
-  return (*seed >> 8) / 16777216.0;
-}
+#include "oracle/random.h"
 
 struct slab awkward_slab(const int samples[SLAB_AXES], double distance) {
   struct slab slab = slab_default();
@@ -29,39 +24,12 @@ struct slab awkward_slab(const int samples[SLAB_AXES], double distance) {
   return slab;
 }
 
-void fill_colours(struct slab *slab, uint32_t seed) {
+void fill_colours(struct slab *slab, uint64_t seed) {
   size_t count = slab_sample_count(slab);
   for (size_t k = 0; k < count; ++k)
     for (size_t c = 0; c < 3; ++c)
       slab->rgb[3 * k + c] =
-          k % 7 == 0 && c > 0 ? slab->rgb[3 * k] : (float)(0.05 + random_number(&seed));
-}
-
-/* Weight of sample `index` of n at x on [low, high]. */
-static double hat(int n, int index, double low, double high, double x) {
-  if (x < low || x > high) return 0;
-  double h = (high - low) / n, first = low + h / 2, last = high - h / 2;
-  double clamped = x < first ? first : x > last ? last : x;
-  double distance = fabs(clamped - (low + (index + 0.5) * h)) / h;
-  return n == 1 ? 1 : distance < 1 ? 1 - distance : 0;
-}
-
-void oracle_lookup(const struct slab *slab, double a, double b, double s, double t, double rgb[3]) {
-  double u = sqrt(slab->u[0] * slab->u[0] + slab->u[1] * slab->u[1] + slab->u[2] * slab->u[2]);
-  double v = sqrt(slab->v[0] * slab->v[0] + slab->v[1] * slab->v[1] + slab->v[2] * slab->v[2]);
-  const int *n = slab->samples;
-  const double *w = slab->st_window;
-  rgb[0] = rgb[1] = rgb[2] = 0;
-  for (int i = 0; i < n[0]; ++i)
-    for (int j = 0; j < n[1]; ++j)
-      for (int k = 0; k < n[2]; ++k)
-        for (int l = 0; l < n[3]; ++l) {
-          double weight = hat(n[0], i, -u / 2, u / 2, a) * hat(n[1], j, -v / 2, v / 2, b) *
-                          hat(n[2], k, w[0], w[1], s) * hat(n[3], l, w[2], w[3], t);
-          /* pixel (i*Ns + k, j*Nt + l) of an image Nu*Ns wide */
-          size_t pixel = (size_t)(j * n[3] + l) * (size_t)(n[0] * n[2]) + (size_t)(i * n[2] + k);
-          for (size_t c = 0; c < 3; ++c) rgb[c] += weight * (double)slab->rgb[3 * pixel + c];
-        }
+          k % 7 == 0 && c > 0 ? slab->rgb[3 * k] : (float)random_between(&seed, 0.05, 1.05);
 }
 
 void assert_ok(enum result result, const struct error *error) {
@@ -86,6 +54,17 @@ void assert_file_refused(const char *path, const char *piece1, const char *piece
   enum result result = slab_file_load_all(path, &slabs, &count, &error);
   assert_null(slabs);
   assert_refused(result, &error, path, piece1, piece2, NULL);
+}
+
+struct slab *write_and_load(const char *path, const struct slab *pages, int count,
+                            enum slab_precision precision) {
+  struct error error = {{0}};
+  struct slab *got = NULL;
+  int found = 0;
+  assert_ok(slab_file_write(path, pages, count, precision, &error), &error);
+  assert_ok(slab_file_load_all(path, &got, &found, &error), &error);
+  assert_int_equal(found, count);
+  return got;
 }
 
 void write_bytes(const char *path, const void *bytes, size_t count) {

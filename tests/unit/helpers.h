@@ -1,5 +1,4 @@
-/* helpers.h - what the slab tests share: slabs filled with known
- * numbers, an independent oracle for lookups. */
+/* helpers.h - what the slab tests share: slabs filled with known numbers, and refusals. */
 #ifndef HELPERS_H
 #define HELPERS_H
 
@@ -7,19 +6,12 @@
 #include "file/slab_json.h"
 #include "testing.h"
 
-/* A number in [0, 1) from a seed; the same on every machine. */
-double random_number(uint32_t *seed);
-
 /* A mirrored frame (u x v = -n), off its origin, with an off-centre window. */
 struct slab awkward_slab(const int samples[SLAB_AXES], double distance);
 
 /* Fills the samples with positive colours between 0.05 and 1.05, white every
  * 7th. */
-void fill_colours(struct slab *slab, uint32_t seed);
-
-/* Quadrilinear radiance by nested loops over all samples and hat functions,
- * from the format's text alone. */
-void oracle_lookup(const struct slab *slab, double a, double b, double s, double t, double rgb[3]);
+void fill_colours(struct slab *slab, uint64_t seed);
 
 /* Fails the test with the message where the operation failed. */
 void assert_ok(enum result result, const struct error *error);
@@ -30,6 +22,11 @@ void assert_refused(enum result result, const struct error *error, ...);
 
 /* Opens and loads all of a file; whatever it says must hold the pieces. */
 void assert_file_refused(const char *path, const char *piece1, const char *piece2);
+
+/* What is read of a file after it was written; slab_file_free_all it. Fails the test where either
+ * fails. */
+struct slab *write_and_load(const char *path, const struct slab *pages, int count,
+                            enum slab_precision precision);
 
 void write_bytes(const char *path, const void *bytes, size_t count);
 

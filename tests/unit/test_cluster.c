@@ -8,6 +8,7 @@
 #include "include/cluster/nnls.h"
 #include "include/cluster/parallelogram.h"
 #include "include/point/point.h"
+#include "oracle/random.h"
 #include "slab/plane.h"
 
 static const double pi = 3.14159265358979323846;
@@ -61,10 +62,9 @@ static void assert_holds(const struct parallelogram *p, double (*points)[2], int
 }
 
 /* Of random points, against all pairs of directions on a fine grid; none may be smaller. */
-static void test_parallelogram(void **state) {
-  (void)state;
+TEST(test_parallelogram) {
   enum { COUNT = 12, DIRECTIONS = 180 };
-  uint32_t seed = 5;
+  uint64_t seed = 5;
   for (int trial = 0; trial < 20; ++trial) {
     double points[COUNT][2], widths[DIRECTIONS], least = INFINITY;
     for (int k = 0; k < COUNT; ++k)
@@ -93,8 +93,7 @@ static void test_parallelogram(void **state) {
 
 /* An oblong is found to the bit. Around the hexagon, three parallelograms are equally small: one
  * with sides along x wins. */
-static void test_exact_parallelograms(void **state) {
-  (void)state;
+TEST(test_exact_parallelograms) {
   double oblong[6][2] = {{0.3, 0.7}, {0.1, 0.7}, {0.2, 0.2}, {0.1, 0.2}, {0.3, 0.2}, {0.2, 0.7}};
   double hexagon[6][2] = {{0, 0}, {1, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 1}};
   struct parallelogram found;
@@ -110,8 +109,7 @@ static void test_exact_parallelograms(void **state) {
   assert_near(found.edge[0][1], 0, 0);
 }
 
-static void test_flat_parallelograms(void **state) {
-  (void)state;
+TEST(test_flat_parallelograms) {
   double one[3][2] = {{1, 2}, {1, 2}, {1, 2}}, line[4][2] = {{0, 0}, {2, 1}, {4, 2}, {2, 1}};
   struct parallelogram found;
   assert_int_equal(parallelogram_around(one, 3, &found, NULL), RESULT_OK);
@@ -128,15 +126,14 @@ static void test_flat_parallelograms(void **state) {
 /* ---- Least squares ---- */
 
 /* Nonnegative least squares satisfy Karush, Kuhn and Tucker's conditions. */
-static void test_nonnegative(void **state) {
-  (void)state;
+TEST(test_nonnegative) {
   enum { N = 7, ROWS = 12 };
-  uint32_t seed = 9;
+  uint64_t seed = 9;
   for (int trial = 0; trial < 50; ++trial) {
     double rows[ROWS][N], a[N * N] = {0}, b[N] = {0}, x[N], scratch[N * (N + 4)];
     for (int r = 0; r < ROWS; ++r) {
-      double value = random_number(&seed) - 0.3;
-      for (int i = 0; i < N; ++i) rows[r][i] = random_number(&seed) - 0.2;
+      double value = random_between(&seed, -0.3, 0.7);
+      for (int i = 0; i < N; ++i) rows[r][i] = random_between(&seed, -0.2, 0.8);
       for (int i = 0; i < N; ++i) {
         b[i] += rows[r][i] * value;
         for (int j = 0; j < N; ++j) a[i * N + j] += rows[r][i] * rows[r][j];
@@ -158,8 +155,7 @@ static void test_nonnegative(void **state) {
 /* ---- Lights ---- */
 
 /* A cosine lobe's flux is pi; a lobe's is the sum of its intensity over a sphere. */
-static void test_flux_of_lobes(void **state) {
-  (void)state;
+TEST(test_flux_of_lobes) {
   struct cluster_light light = {.tightness = 1, .size = {1, 1}};
   assert_near(cluster_flux(&light), pi, 1e-12);
   light.tightness = 7.5;
@@ -176,8 +172,7 @@ static void test_flux_of_lobes(void **state) {
 }
 
 /* Derivatives, by differences. */
-static void test_slopes(void **state) {
-  (void)state;
+TEST(test_slopes) {
   static const double at[3] = {0.5, -0.3, 1.2}, apart = 1e-6;
   const struct cluster_light light = {.center = {0.1, -0.05},
                                       .edge = {{0.4, 0.1}, {-0.1, 0.3}},
@@ -215,8 +210,7 @@ static double soft_lamp(const double x[4], int channel) {
 }
 
 /* The lights' flux is the slab's in each channel, and no cone reaches behind. */
-static void test_flux(void **state) {
-  (void)state;
+TEST(test_flux) {
   struct slab slab = plain_slab(6, 12, 1.5);
   fill(&slab, soft_lamp);
   for (int lights = 1; lights <= 9; lights += 4) {
@@ -242,8 +236,7 @@ static void test_flux(void **state) {
 }
 
 /* The same bits, twice; and times a power of 2 with the radiance. */
-static void test_determinism(void **state) {
-  (void)state;
+TEST(test_determinism) {
   struct slab slab = plain_slab(5, 10, 1.2);
   fill(&slab, soft_lamp);
   struct cluster first = fit(&slab, 5), second = fit(&slab, 5);
@@ -276,8 +269,7 @@ static double two_beams(const double x[4], int channel) {
   return sum;
 }
 
-static void test_known_mixture(void **state) {
-  (void)state;
+TEST(test_known_mixture) {
   struct slab slab = plain_slab(4, 48, 1.5);
   fill(&slab, two_beams);
   struct cluster cluster = fit(&slab, 2);
@@ -303,8 +295,7 @@ static double one_sample_of_all(const double x[4], int channel) {
 }
 
 /* All light in one sample is one small light; its missing channel stays dark. */
-static void test_one_sample(void **state) {
-  (void)state;
+TEST(test_one_sample) {
   struct slab slab = plain_slab(8, 8, 1);
   for (int axis = 0; axis < 2; ++axis) slab.samples[axis] = 4;
   fill(&slab, one_sample_of_all);
@@ -325,8 +316,7 @@ static void test_one_sample(void **state) {
   slab_free(&slab);
 }
 
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   struct slab slab = plain_slab(2, 4, 1);
   struct error error;
   struct cluster cluster;
@@ -349,8 +339,7 @@ static void test_refusals(void **state) {
 }
 
 /* The image's light, summed as POV-Ray interpolates it, is the slab's. */
-static void test_point_flux(void **state) {
-  (void)state;
+TEST(test_point_flux) {
   struct slab slab = plain_slab(3, 12, 1.5);
   struct point point;
   struct error error;

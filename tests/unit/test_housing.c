@@ -15,8 +15,7 @@ static void expect(const char *script, const char *housing) {
   free(found);
 }
 
-static void test_found(void **state) {
-  (void)state;
+TEST(test_found) {
   expect("#declare Canned_Housing = sphere { 0, 1 }\nlight_source { y }", "sphere { 0, 1 }");
   expect("#declare R = 2;\n#declare V=<1,2,3>*R ;#declare Canned_Housing=box{0,R}",
          "#local R = 2;\nbox{0,R}");
@@ -27,8 +26,7 @@ static void test_found(void **state) {
 }
 
 /* Braces and words in comments and strings are no code. */
-static void test_quiet_text(void **state) {
-  (void)state;
+TEST(test_quiet_text) {
   expect("// #declare Canned_Housing = sphere { 0, 1 }\n", NULL);
   expect("/* #declare Canned_Housing = sphere { 0, 1 } */", NULL);
   expect("#debug \"#declare Canned_Housing = x { }\"", NULL);
@@ -39,8 +37,7 @@ static void test_quiet_text(void **state) {
 }
 
 /* Objects and textures are not carried, nor names that only begin alike. */
-static void test_left_alone(void **state) {
-  (void)state;
+TEST(test_left_alone) {
   expect("#declare T = texture { pigment { rgb 1 } }\n#declare Canned_Housing = box { 0, 1 }",
          "box { 0, 1 }");
   expect("#declare Canned_Housing_2 = box { 0, 1 }", NULL);
@@ -55,8 +52,7 @@ static void wrap(char script[256], const char *around, const char *part, const c
 }
 
 /* What the script only declares at times, or twice, is not known without running it. */
-static void test_conditional(void **state) {
-  (void)state;
+TEST(test_conditional) {
   static const char *const wraps[] = {
       "#if (0)\n%s\n#end",
       "#ifdef (X) %s #else #end",
@@ -95,8 +91,7 @@ static void test_conditional(void **state) {
 }
 
 /* A slab file may come from anyone. */
-static void test_harmless(void **state) {
-  (void)state;
+TEST(test_harmless) {
   static const char *const good[] = {
       "box { 0, 1 }",
       "#local R = 2;\n#local V = <1,2,3>*R ;\nbox{0,R}",

@@ -9,6 +9,7 @@
 #include "bench/lamp.h"
 #include "file/slab_json.h"
 #include "helpers.h"
+#include "oracle/random.h"
 #include "slab/plane.h"
 #include "slab/slab_accuracy.h"
 #include "slab/slab_sharpen.h"
@@ -131,29 +132,24 @@ static void check_lamp(const char *name, radiance *lamp, int uv, int st) {
   slab_free(&slab);
 }
 
-static void test_lobe(void **state) {
-  (void)state;
+TEST(test_lobe) {
   check_lamp("smooth lobe", lobe, 8, 32);
 }
 
-static void test_peak(void **state) {
-  (void)state;
+TEST(test_peak) {
   check_lamp("thin peak", peak, 8, 32);
 }
 
-static void test_edge(void **state) {
-  (void)state;
+TEST(test_edge) {
   check_lamp("edge", edge, 8, 32);
 }
 
-static void test_paper(void **state) {
-  (void)state;
+TEST(test_paper) {
   check_lamp("the paper's lamp", paper, 16, 32);
 }
 
 /* A sharpened slab errs less, and says so. */
-static void test_sharpened(void **state) {
-  (void)state;
+TEST(test_sharpened) {
   struct slab slab = slab_of(lobe, 8, 32);
   struct slab_accuracy before, after;
   struct error error = {{0}};
@@ -169,18 +165,17 @@ static void test_sharpened(void **state) {
 }
 
 /* Noise of known size, independent from sample to sample; and some that all share. */
-static void test_noise(void **state) {
-  (void)state;
+TEST(test_noise) {
   struct slab clean = slab_of(NULL, 8, 32), noisy = slab_of(NULL, 8, 32);
   struct error error = {{0}};
   struct slab_accuracy floors[2];
   const double distances[2] = {1, 8};
-  uint32_t seed = 9;
+  uint64_t seed = 9;
   for (size_t n = 0; n < slab_sample_count(&clean); ++n)
     for (size_t c = 0; c < 3; ++c) {
       clean.rgb[3 * n + c] = 1;
       noisy.rgb[3 * n + c] =
-          c ? noisy.rgb[3 * n] : (float)(1 + sqrt(12) * 0.3 * (random_number(&seed) - 0.5));
+          c ? noisy.rgb[3 * n] : (float)(1 + sqrt(12) * 0.3 * random_between(&seed, -0.5, 0.5));
     }
   const char *stated = "{\"noise\": {\"sample\": 0.3, \"flux\": 0}}";
   assert_ok(slab_json_set(&noisy, "provenance", stated, &error), &error);
@@ -199,8 +194,7 @@ static void test_noise(void **state) {
 }
 
 /* Whatever the unit of length and of light. */
-static void test_units(void **state) {
-  (void)state;
+TEST(test_units) {
   struct slab small = slab_of(lobe, 4, 8), large = slab_of(lobe, 4, 8);
   struct slab_accuracy floors[2];
   for (size_t n = 0; n < 3 * slab_sample_count(&large); ++n) large.rgb[n] *= 1e6F;
@@ -221,8 +215,7 @@ static void test_units(void **state) {
 }
 
 /* Nothing to halve, nothing to see, light at the very border. */
-static void test_corners(void **state) {
-  (void)state;
+TEST(test_corners) {
   static const int grids[][4] = {
       {1, 1, 1, 1}, {1, 1, 16, 16}, {5, 4, 1, 3}, {1, 9, 2, 31}, {3, 3, 3, 3}};
   struct slab_accuracy floors[SLAB_ACCURACY_DISTANCES];

@@ -12,7 +12,7 @@
 #include "helpers.h"
 #include "raw_files.h"
 
-/* 3 x 2 views of 5 x 7: nothing divides anything. */
+/* 3 x 2 views of 5 x 7: no size divides another. */
 enum { WIDTH = 15, HEIGHT = 14, VALUES = 3 * WIDTH * HEIGHT };
 #define TEXT(SAMPLES, MORE)                                                                        \
   "{\"format\": \"light-slab\", \"version\": 1, \"samples\": " SAMPLES                             \
@@ -60,8 +60,7 @@ static void expect_pixels(const char *path, int pages) {
   slab_file_close(file);
 }
 
-static void test_tiff_layouts(void **state) {
-  (void)state;
+TEST(test_tiff_layouts) {
   static const int compressions[] = {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_PACKBITS,
                                      COMPRESSION_DEFLATE, COMPRESSION_ADOBE_DEFLATE};
   const char *path = scratch("layout.tif");
@@ -78,8 +77,7 @@ static void test_tiff_layouts(void **state) {
   }
 }
 
-static void test_tiff_pages(void **state) {
-  (void)state;
+TEST(test_tiff_pages) {
   const char *path = scratch("pages.tif");
   struct raw_tiff page = plain_tiff();
   for (int n = 0; n < 3; ++n) {
@@ -91,8 +89,7 @@ static void test_tiff_pages(void **state) {
   expect_pixels(path, 3);
 }
 
-static void test_exr_layouts(void **state) {
-  (void)state;
+TEST(test_exr_layouts) {
   static const int compressions[] = {EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE,
                                      EXR_COMPRESSION_ZIPS, EXR_COMPRESSION_ZIP,
                                      EXR_COMPRESSION_PIZ};
@@ -111,8 +108,7 @@ static void test_exr_layouts(void **state) {
   }
 }
 
-static void test_exr_parts(void **state) {
-  (void)state;
+TEST(test_exr_parts) {
   const char *path = scratch("parts.exr");
   struct raw_exr parts[3] = {plain_exr(), plain_exr(), plain_exr()};
   parts[1].tile = 8;
@@ -122,8 +118,7 @@ static void test_exr_parts(void **state) {
 }
 
 /* A LogLuv page of another program: with and without a white correction. */
-static void test_logluv(void **state) {
-  (void)state;
+TEST(test_logluv) {
   static const float white_xyz[3] = {0.9504559F, 1, 1.0890578F};
   for (int corrected = 0; corrected < 2; ++corrected) {
     const char *path = scratch("foreign.tif");
@@ -140,7 +135,7 @@ static void test_logluv(void **state) {
     assert_int_equal(slab_file_precision(file, 0), SLAB_PRECISION_LOGLUV);
     assert_ok(slab_file_read_view(file, 0, 0, 0, rgb, &error), &error);
     slab_file_close(file);
-    /* Without the correction white comes back as facts say: (1.017, .9986, .9835). */
+    /* Without the correction white comes back tinted: (1.017, .9986, .9835). */
     static const double tinted[3] = {1.017, 0.9986, 0.9835};
     for (int c = 0; c < 3; ++c)
       assert_near((double)rgb[c], corrected ? 1 : tinted[c], corrected ? 0.001355 : 0.0015);
@@ -168,8 +163,7 @@ static void refuse_text(const char *text, const char *why) {
 #define F ", \"u\": [1, 0, 0], \"v\": [0, 0, 1], \"normal\": [0, -1, 0]"
 #define W ", \"st_window\": [-1, 1, -1, 1]"
 
-static void test_refused_descriptions(void **state) {
-  (void)state;
+TEST(test_refused_descriptions) {
   refuse_text(NULL, "no JSON description");
   refuse_text("a picture of a cat", "malformed JSON");
   refuse_text("{\"format\": \"light-slab\",", "malformed JSON");
@@ -216,8 +210,7 @@ static void test_refused_descriptions(void **state) {
 }
 
 /* The second page, and the sample by its four indices. */
-static void test_refused_samples(void **state) {
-  (void)state;
+TEST(test_refused_samples) {
   static float bad[VALUES];
   static const float values[] = {NAN, INFINITY, -INFINITY};
   for (int n = 0; n < 3; ++n) {
@@ -244,8 +237,7 @@ static void test_refused_samples(void **state) {
   }
 }
 
-static void test_refused_pixels(void **state) {
-  (void)state;
+TEST(test_refused_pixels) {
   const char *path = scratch("odd.tif");
   struct raw_tiff page = plain_tiff();
   page.samples = 4;
@@ -262,8 +254,7 @@ static void test_refused_pixels(void **state) {
   assert_file_refused(path, "page 1", "no channel G");
 }
 
-static void test_foreign_and_empty(void **state) {
-  (void)state;
+TEST(test_foreign_and_empty) {
   const char *path = scratch("foreign");
   struct error error = {{0}};
   struct slab_file *file = NULL;
@@ -299,8 +290,7 @@ static void expect_truncated(const char *path) {
   assert_file_refused(cut, "", "");
 }
 
-static void test_truncated(void **state) {
-  (void)state;
+TEST(test_truncated) {
   struct slab slab = awkward_slab((const int[]){3, 2, 5, 7}, 1);
   fill_colours(&slab, 2);
   struct error error = {{0}};
@@ -321,8 +311,7 @@ static void test_truncated(void **state) {
 
 /* A header of a few bytes that promises 30000 x 30000 pixels is refused
  * before anything of that size is allocated. */
-static void test_lying_header(void **state) {
-  (void)state;
+TEST(test_lying_header) {
   const char *path = scratch("lie.tif");
   TIFF *tif = TIFFOpen(path, "w");
   TIFFSetField(tif, TIFFTAG_IMAGEWIDTH, 30000);

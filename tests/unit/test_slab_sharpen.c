@@ -6,6 +6,8 @@
 
 #include "file/slab_json.h"
 #include "helpers.h"
+#include "oracle/lookup.h"
+#include "oracle/random.h"
 #include "slab/slab_sharpen.h"
 
 static const int grids[][4] = {{1, 1, 1, 1}, {2, 1, 1, 5}, {1, 2, 6, 1},
@@ -29,22 +31,21 @@ static void sharpen(struct slab *slab, enum slab_sharpening how) {
 /* Of the interpolated radiance over a cell of s and t. It is bilinear in each quarter of the
  * cell, so that the quarters' centres tell their means. */
 static double interpolated_mean(const struct slab *slab, const int at[4], int channel) {
-  double x[4], sum = 0;
-  for (int axis = 0; axis < 4; ++axis) x[axis] = slab_position(slab, axis, at[axis]);
+  double x[4], rgb[3], sum = 0;
   for (int quarter = 0; quarter < 4; ++quarter) {
-    double rgb[3], s = x[2] + (quarter % 2 - 0.5) / 2 * slab_spacing(slab, SLAB_S);
-    oracle_lookup(slab, x[0], x[1], s, x[3] + (quarter / 2 - 0.5) / 2 * slab_spacing(slab, SLAB_T),
-                  rgb);
+    for (int axis = 0; axis < 4; ++axis) x[axis] = slab_position(slab, axis, at[axis]);
+    x[2] += (quarter % 2 - 0.5) / 2 * slab_spacing(slab, SLAB_S);
+    x[3] += (quarter / 2 - 0.5) / 2 * slab_spacing(slab, SLAB_T);
+    oracle_lookup(slab, x, rgb);
     sum += rgb[channel] / 4;
   }
   return sum;
 }
 
-static void test_cell_means(void **state) {
-  (void)state;
+TEST(test_cell_means) {
   for (int g = 0; g < GRIDS - 1; ++g) {
     struct slab means = awkward_slab(grids[g], g % 2 ? INFINITY : 0.8);
-    fill_colours(&means, (uint32_t)g);
+    fill_colours(&means, (uint64_t)g);
     struct slab sharp = copy_of(&means);
     sharpen(&sharp, SLAB_SHARPEN_EXACT);
     for (size_t n = 0; n < slab_sample_count(&means); ++n) {
@@ -62,10 +63,9 @@ static void test_cell_means(void **state) {
 }
 
 /* In double: the sum of a line, and the line again. */
-static void test_lines(void **state) {
-  (void)state;
+TEST(test_lines) {
   double means[3 * 300], line[3 * 300], scratch[2 * 300];
-  uint32_t seed = 4;
+  uint64_t seed = 4;
   for (int count = 1; count <= 300; count = count < 9 ? count + 1 : count * 2 - 1) {
     double before = 0, after = 0;
     for (int k = 0; k < 3 * count; ++k) line[k] = means[k] = random_number(&seed);
@@ -94,8 +94,7 @@ static void assert_same_sums(const struct slab *a, const struct slab *b, double 
     }
 }
 
-static void test_constant(void **state) {
-  (void)state;
+TEST(test_constant) {
   static const float values[] = {1, 0.1F, 1e-30F, 3e4F, -0.7F, 1 / 3.0F};
   for (int g = 0; g < GRIDS; ++g)
     for (int v = 0; v < 6; ++v)
@@ -121,8 +120,7 @@ static struct slab band(float behind) {
   return slab;
 }
 
-static void test_negative(void **state) {
-  (void)state;
+TEST(test_negative) {
   struct slab means = band(0), exact = copy_of(&means), positive = copy_of(&means);
   sharpen(&exact, SLAB_SHARPEN_EXACT);
   sharpen(&positive, SLAB_SHARPEN_POSITIVE);
@@ -146,8 +144,7 @@ static void test_negative(void **state) {
 }
 
 /* Where nothing would be negative, both ways are the same; what was negative stays so. */
-static void test_limits(void **state) {
-  (void)state;
+TEST(test_limits) {
   struct slab bright = band(1.3F), exact = copy_of(&bright), positive = copy_of(&bright);
   sharpen(&exact, SLAB_SHARPEN_EXACT);
   sharpen(&positive, SLAB_SHARPEN_POSITIVE);
@@ -161,8 +158,7 @@ static void test_limits(void **state) {
 
 /* The flux weighs with the cosine, which varies within a cell: it is kept as far as cells
  * are small. */
-static void test_flux(void **state) {
-  (void)state;
+TEST(test_flux) {
   struct slab means = band(0), sharp = copy_of(&means);
   sharpen(&sharp, SLAB_SHARPEN_EXACT);
   for (int narrow = 0; narrow < 2; ++narrow) {
@@ -175,8 +171,7 @@ static void test_flux(void **state) {
   slab_free(&means), slab_free(&sharp);
 }
 
-static void test_record(void **state) {
-  (void)state;
+TEST(test_record) {
   struct slab slab = awkward_slab(grids[0], INFINITY);
   struct error error = {{0}};
   assert_false(sampling_of(&slab).sharpened);

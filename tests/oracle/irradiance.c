@@ -1,45 +1,22 @@
-/* oracle.c - the integral over each piece: Gauss-Legendre in y inside
+/* irradiance.c - see oracle.h. The integral over each piece is Gauss-Legendre in y inside
  * Gauss-Legendre in x, on intervals so short that the kernel's poles are far
- * away in terms of their length. Both run from the piece's lower ends, from
- * far away the pieces are short and nothing of their lengths must be lost. The receiver's tangent
+ * away in terms of their length. Both run from the piece's lower ends: from
+ * far away the pieces are short, and nothing of their lengths must be lost. The receiver's tangent
  * plane is a line in (x, y): the inner integral ends there, the outer one is split where the line
  * leaves the piece. */
-#include "oracle.h"
+#include "oracle/oracle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ORDER_MAX = 64, LESS = 3 };
+#include "oracle/gauss.h"
+#include "oracle/lookup.h"
+
+enum { LESS = 3 };
 
 static const long double rho_min = 2.2L; /* shorter intervals below */
 static const long double digits = 42;    /* e^-42 = 6e-19 */
-
-struct rule {
-  int count;
-  long double x[ORDER_MAX], w[ORDER_MAX]; /* on (-1, 1) */
-};
-
-static const struct rule *gauss(int n) {
-  static struct rule rules[ORDER_MAX + 1];
-  struct rule *rule = &rules[n];
-  for (int i = rule->count; i < n; ++i, rule->count = i) {
-    long double x = cosl(acosl(-1.0L) * (i + 0.75L) / (n + 0.5L)), slope = 1;
-    for (int step = 0; step < 12; ++step) {
-      long double p = 1, before = 0;
-      for (int k = 1; k <= n; ++k) {
-        long double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-        before = p;
-        p = next;
-      }
-      slope = n * (x * p - before) / (x * x - 1);
-      x -= p / slope;
-    }
-    rule->x[i] = x;
-    rule->w[i] = 2 / ((1 - x * x) * slope * slope);
-  }
-  return rule;
-}
 
 /* Poles of the integrand in the complex plane, each with its conjugate. */
 struct poles {
@@ -84,7 +61,7 @@ static void integrate(struct area *area, integrand *f, long double a, long doubl
   }
   /* 7 more: the polynomial in front of the poles, and the sloping inner limit */
   int n = (int)ceill(digits / (2 * logl(rho))) + 7 - area->less;
-  const struct rule *rule = gauss(n < ORDER_MAX ? n : ORDER_MAX);
+  const struct gauss *rule = gauss_rule(n < GAUSS_MOST ? n : GAUSS_MOST);
   for (int k = 0; k < rule->count; ++k)
     f(area, (a + b) / 2 + (b - a) / 2 * rule->x[k], (b - a) / 2 * rule->w[k], sum);
 }
@@ -152,12 +129,10 @@ static void piece_integral(struct area *area, long double sum[3]) {
 static void gather(const struct slab *slab, struct area *area, bool swap) {
   const struct oracle_piece *u = swap ? area->inner : area->outer;
   const struct oracle_piece *v = swap ? area->outer : area->inner;
-  const int *n = slab->samples;
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) {
-      size_t column = (size_t)u->uv[a / 2] * (size_t)n[2] + (size_t)u->st[a % 2];
-      size_t row = (size_t)v->uv[b / 2] * (size_t)n[3] + (size_t)v->st[b % 2];
-      const float *rgb = slab->rgb + 3 * (row * (size_t)n[0] * (size_t)n[2] + column);
+      const float *rgb =
+          oracle_sample(slab, u->uv[a / 2], v->uv[b / 2], u->st[a % 2], v->st[b % 2]);
       for (int c = 0; c < 3; ++c) {
         long double value = (long double)rgb[c];
         area->value[swap ? b : a][swap ? a : b][c] = area->magnitude ? fabsl(value) : value;
@@ -165,25 +140,23 @@ static void gather(const struct slab *slab, struct area *area, bool swap) {
     }
 }
 
-void oracle_frame(const struct slab *slab, long double frame[3][3]) {
-  const double *const from[3] = {slab->u, slab->v, slab->normal};
-  for (int r = 0; r < 3; ++r) {
-    long double square = 0;
-    for (int k = 0; k < 3; ++k) square += (long double)from[r][k] * (long double)from[r][k];
-    for (int k = 0; k < 3; ++k) frame[r][k] = (long double)from[r][k] / sqrtl(square);
-  }
+static long double length_of(const double x[3]) {
+  return hypotl(hypotl(x[0], x[1]), x[2]);
 }
 
-/* The receiver's unit normal in the slab's frame. */
-static void turned(const struct slab *slab, const double n[3], long double turn[3]) {
-  long double frame[3][3];
-  long double length = 0;
-  oracle_frame(slab, frame);
-  for (int k = 0; k < 3; ++k) length += (long double)n[k] * (long double)n[k];
+void oracle_place(const struct slab *slab, const double p[3], const double n[3],
+                  struct oracle_place *place) {
+  const double *const axes[3] = {slab->u, slab->v, slab->normal};
   for (int r = 0; r < 3; ++r) {
-    turn[r] = 0;
-    for (int k = 0; k < 3; ++k) turn[r] += frame[r][k] * (long double)n[k] / sqrtl(length);
+    place->p[r] = place->n[r] = 0;
+    for (int k = 0; k < 3; ++k) {
+      long double axis = (long double)axes[r][k] / length_of(axes[r]);
+      place->p[r] += axis * ((long double)p[k] - (long double)slab->center[k]);
+      place->n[r] += axis * (long double)n[k] / length_of(n);
+    }
   }
+  for (int k = 0; k < 2; ++k) place->half[k] = length_of(axes[k]) / 2;
+  place->kappa = isinf(slab->st_distance) ? 0 : 1 / (long double)slab->st_distance;
 }
 
 struct oracle_value oracle_irradiance(const struct slab *slab, const double p[3],
@@ -191,12 +164,13 @@ struct oracle_value oracle_irradiance(const struct slab *slab, const double p[3]
   struct oracle_value value = {{0}, {0}, 0};
   static struct oracle_axis axes[2];
   static struct area area;
-  long double turn[3], sums[3][3] = {{0}};
-  turned(slab, n, turn);
-  bool swap = fabsl(turn[0]) > fabsl(turn[1]);
-  area.n[0] = turn[swap], area.n[1] = turn[!swap], area.n[2] = turn[2];
-  oracle_axis(slab, p, swap, &axes[0]);
-  oracle_axis(slab, p, !swap, &axes[1]);
+  struct oracle_place place;
+  long double sums[3][3] = {{0}};
+  oracle_place(slab, p, n, &place);
+  bool swap = fabsl(place.n[0]) > fabsl(place.n[1]);
+  area.n[0] = place.n[swap], area.n[1] = place.n[!swap], area.n[2] = place.n[2];
+  oracle_axis_find(slab, p, swap, &axes[0]);
+  oracle_axis_find(slab, p, !swap, &axes[1]);
   for (int pass = 0; pass < 3; ++pass) {
     area.less = pass == 0 ? 0 : LESS;
     area.magnitude = pass == 2;
@@ -211,7 +185,7 @@ struct oracle_value oracle_irradiance(const struct slab *slab, const double p[3]
     value.e[c] = sums[0][c];
     value.magnitude[c] = sums[2][c];
     if (sums[2][c] > 0)
-      value.error = fmaxl(value.error, fabsl(sums[0][c] - sums[1][c]) / sums[2][c]);
+      value.error = oracle_larger(value.error, fabsl(sums[0][c] - sums[1][c]) / sums[2][c]);
   }
   return value;
 }

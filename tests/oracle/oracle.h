@@ -10,39 +10,21 @@
  *   E = int int L (Nx x + Ny y - Nz)+ / (1 + x^2 + y^2)^2 dx dy
  *
  * and along an axis s = kappa qx - (1 - kappa z) x. All lines of both grids,
- * and what is visible between them, are exact rationals (oracle_axis.c); the
- * integral over each piece is Gauss-Legendre in long double (oracle.c). */
+ * and what is visible between them, are exact rationals (exact.h); the
+ * integral over each piece is Gauss-Legendre in long double (irradiance.c). */
 #ifndef ORACLE_H
 #define ORACLE_H
 
+#include <math.h>
+
+#include "oracle/exact.h"
 #include "slab/slab.h"
-
-enum { ORACLE_PIECES = 256 }; /* along an axis; more aborts */
-
-/* Where neither grid has a line inside: everything is linear in x. Sample
- * `uv[0] + f`, f going from uv_at[0] to uv_at[1]; the same for st. */
-struct oracle_piece {
-  long double x, width;
-  int uv[2], st[2];
-  long double uv_at[2], st_at[2];
-};
-
-struct oracle_axis {
-  int count; /* 0 where nothing is visible */
-  struct oracle_piece piece[ORACLE_PIECES];
-};
 
 struct oracle_value {
   long double e[3];
   long double magnitude[3]; /* the integral of |L| */
   long double error;        /* estimated, the largest of the channels; relative to magnitude */
 };
-
-/* The visible part along u (`which` 0) or v (1), for a receiver at height
- * z >= 0. z = 0 is the limit from above: the rectangle is then all slopes where
- * the foot is inside, half of them on its border. Aborts unless the lengths
- * of the pieces add up exactly. */
-void oracle_axis(const struct slab *slab, const double p[3], int which, struct oracle_axis *axis);
 
 /* Irradiance at p with normal n (any length but 0). 0 behind the uv plane. */
 struct oracle_value oracle_irradiance(const struct slab *slab, const double p[3],
@@ -52,13 +34,16 @@ struct oracle_value oracle_irradiance(const struct slab *slab, const double p[3]
 long double oracle_lambert(const struct slab *slab, const double p[3], const double n[3]);
 
 /* The same by the midpoint sum over count x count points of the aperture, each
- * ray looked up by itself: coarse. z > 0. */
-void oracle_brute(const struct slab *slab, const double p[3], const double n[3], int count,
-                  double rgb[3]);
+ * ray looked up by itself: coarse. z > 0. With `eye` not NULL, the highlight instead that is seen
+ * along it: the integral of L (N.H)^shininess over the solid angle. */
+void oracle_brute(const struct slab *slab, const double p[3], const double n[3],
+                  const double eye[3], double shininess, int count, double rgb[3]);
 
-/* A receiver in the slab's own frame, from its centre. */
+/* A receiver in the slab's own frame u', v', normal, from its centre; and the slab there. */
 struct oracle_place {
   long double p[3], n[3]; /* n: unit */
+  long double half[2];    /* of the aperture's edges */
+  long double kappa;      /* 1/D */
 };
 void oracle_place(const struct slab *slab, const double p[3], const double n[3],
                   struct oracle_place *place);
@@ -69,7 +54,9 @@ void oracle_place(const struct slab *slab, const double p[3], const double n[3],
 void oracle_view(const struct slab *slab, const struct oracle_place *place, int i, int j,
                  long double rgb[3], long double error[3]);
 
-/* Unit vectors u', v', normal: rows of lamp space to the slab's own frame. */
-void oracle_frame(const struct slab *slab, long double frame[3][3]);
+/* NaN where x or y is, unlike fmaxl: the largest of some errors then fails every comparison. */
+static inline long double oracle_larger(long double x, long double y) {
+  return x > y || isnan(x) ? x : y;
+}
 
 #endif
