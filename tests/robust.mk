@@ -65,7 +65,7 @@ $(B)/tests/faults/nomem.so: tests/faults/nomem.c | $(SETUP_FIRST)
 	$(Q)$(CC) -O1 -g -D_GNU_SOURCE $(WARN) -fPIC -shared $< -o $@
 
 $(B)/tests/faults/bakeslab.log $(B)/tests/faults/renderslab.log: $(B)/tests/faults/%.log: $(FAULTS_PROGRAMS) $(BIN) FORCE
-	@$(TEST_ENV) TOOLS=$(abspath $(B)/tests/faults) sh tests/run.sh $@ bash -c '. tests/needs.bash && needs xvfb-run && exec xvfb-run -a "$$@"' _ $< $*
+	@$(TEST_ENV) TOOLS=$(abspath $(B)/tests/faults) sh tests/run.sh $@ bash -c '. tests/needs.bash && needs xvfb-run && exec xvfb-run -a -s "-screen 0 800x600x24 -noreset" "$$@"' _ $< $*
 
 $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
 

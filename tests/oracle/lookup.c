@@ -20,8 +20,10 @@ bool oracle_taps(long double x, long double low, long double high, int count, in
   return true;
 }
 
+/* Squares of doubles are within the range of long double. */
 static long double half_of(const double edge[3]) {
-  return hypotl(hypotl(edge[0], edge[1]), edge[2]) / 2;
+  long double x = edge[0], y = edge[1], z = edge[2];
+  return sqrtl(x * x + y * y + z * z) / 2;
 }
 
 void oracle_lookup(const struct slab *slab, const double abst[4], double rgb[3]) {

@@ -118,7 +118,7 @@ TEST(test_oracle_brute) {
     for (int k = 0; k < 3; ++k) {
       struct oracle_value value = oracle_irradiance(&slab, receivers[k].p, receivers[k].n);
       double sum[3], most = 0;
-      oracle_brute(&slab, receivers[k].p, receivers[k].n, NULL, 0, 1000, sum);
+      oracle_brute(&slab, receivers[k].p, receivers[k].n, NULL, 0, 700, sum);
       for (int c = 0; c < 3; ++c) most = larger(most, off(sum[c], value.e[c]));
       if (sees_all(&slab, &receivers[k])) {
         worst = larger(worst, most);
