@@ -7,6 +7,20 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+enum { MOST_TESTS = 32 };
+
+static struct CMUnitTest tests[MOST_TESTS];
+static size_t test_count;
+
+void testing_add(const char *name, CMUnitTestFunction test) {
+  if (test_count == MOST_TESTS) abort();
+  tests[test_count++] = (struct CMUnitTest){.name = name, .test_func = test};
+}
+
+int testing_run(CMFixtureFunction setup, CMFixtureFunction teardown) {
+  return _cmocka_run_group_tests("tests", tests, test_count, setup, teardown);
+}
+
 static char directory[256];
 
 static void remove_scratch(void) {

@@ -1,4 +1,4 @@
-/* testing.h - what tests in C share: cmocka, scratch files, comparisons of numbers. */
+/* testing.h - what tests in C share: tests that register themselves, scratch files, comparisons. */
 #ifndef TESTING_H
 #define TESTING_H
 
@@ -12,8 +12,18 @@
 
 #include <cmocka.h>
 
-/* A test of cmocka's that has no use for the state it is given. */
-#define TEST(name) static void name(__attribute__((unused)) void **unused)
+/* A test, which registers itself; it has no use for cmocka's state. */
+#define TEST(name)                                                                                 \
+  static void name(void **);                                                                       \
+  __attribute__((constructor)) static void name##_is_there(void) {                                 \
+    testing_add(#name, name);                                                                      \
+  }                                                                                                \
+  static void name(__attribute__((unused)) void **unused)
+void testing_add(const char *name, CMUnitTestFunction test);
+
+/* Runs the tests in the order in which they stand in the file; what main returns. Setup and
+ * teardown, or NULL, are of all of them together. */
+int testing_run(CMFixtureFunction setup, CMFixtureFunction teardown);
 
 /* A path in a scratch directory of this process, which exists; valid until the next 8 calls. The
  * directory and what is in it goes away at exit. */

@@ -136,8 +136,5 @@ TEST(test_radiosity) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_cameras), cmocka_unit_test(test_adaptive_cameras),
-      cmocka_unit_test(test_jobs), cmocka_unit_test(test_shards), cmocka_unit_test(test_radiosity)};
-  return cmocka_run_group_tests(tests, bake_all, bakes_teardown);
+  return testing_run(bake_all, bakes_teardown);
 }

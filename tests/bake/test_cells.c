@@ -225,9 +225,5 @@ TEST(test_no_noise) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_hard_edge), cmocka_unit_test(test_centre),
-      cmocka_unit_test(test_linear),    cmocka_unit_test(test_adaptive),
-      cmocka_unit_test(test_noise),     cmocka_unit_test(test_no_noise)};
-  return cmocka_run_group_tests(tests, bake_all, bakes_teardown);
+  return testing_run(bake_all, bakes_teardown);
 }

@@ -180,6 +180,5 @@ TEST(test_gain) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_flux), cmocka_unit_test(test_gain)};
-  return cmocka_run_group_tests(tests, bake_all, bakes_teardown);
+  return testing_run(bake_all, bakes_teardown);
 }

@@ -125,7 +125,5 @@ TEST(test_chink) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_ranges), cmocka_unit_test(test_negative),
-                                     cmocka_unit_test(test_chink)};
-  return cmocka_run_group_tests(tests, bake_all, bakes_teardown);
+  return testing_run(bake_all, bakes_teardown);
 }

@@ -168,8 +168,5 @@ TEST(test_borders) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_floats), cmocka_unit_test(test_logluv),
-                                     cmocka_unit_test(test_half_adaptive),
-                                     cmocka_unit_test(test_borders)};
-  return cmocka_run_group_tests(tests, bake_all, bakes_teardown);
+  return testing_run(bake_all, bakes_teardown);
 }

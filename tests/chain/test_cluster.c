@@ -288,11 +288,5 @@ TEST(test_point) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lights),       cmocka_unit_test(test_narrow),
-      cmocka_unit_test(test_placed),       cmocka_unit_test(test_pages),
-      cmocka_unit_test(test_fewer_points), cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_point),
-  };
-  return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
+  return testing_run(chain_setup, chain_teardown);
 }

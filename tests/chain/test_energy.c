@@ -199,7 +199,5 @@ TEST(test_povray) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_bake), cmocka_unit_test(test_convert),
-                                     cmocka_unit_test(test_methods), cmocka_unit_test(test_povray)};
-  return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
+  return testing_run(chain_setup, chain_teardown);
 }

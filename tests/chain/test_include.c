@@ -295,14 +295,5 @@ TEST(test_housing) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tolerance), cmocka_unit_test(test_macro_arguments),
-      cmocka_unit_test(test_image),     cmocka_unit_test(test_two_of_a_name),
-      cmocka_unit_test(test_gamma),     cmocka_unit_test(test_command_line),
-      cmocka_unit_test(test_own_slab),  cmocka_unit_test(test_radiance),
-      cmocka_unit_test(test_name),      cmocka_unit_test(test_unseen),
-      cmocka_unit_test(test_saturated), cmocka_unit_test(test_injection),
-      cmocka_unit_test(test_housing),
-  };
-  return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
+  return testing_run(chain_setup, chain_teardown);
 }

@@ -140,6 +140,5 @@ TEST(test_canned) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_letter), cmocka_unit_test(test_canned)};
-  return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
+  return testing_run(chain_setup, chain_teardown);
 }

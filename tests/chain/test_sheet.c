@@ -231,11 +231,5 @@ TEST(test_black_views) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_settings),    cmocka_unit_test(test_words),
-      cmocka_unit_test(test_instances),   cmocka_unit_test(test_case),
-      cmocka_unit_test(test_pages),       cmocka_unit_test(test_lights),
-      cmocka_unit_test(test_black_views),
-  };
-  return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
+  return testing_run(chain_setup, chain_teardown);
 }

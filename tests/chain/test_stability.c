@@ -231,10 +231,5 @@ TEST(test_twenty) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_scales),      cmocka_unit_test(test_far_off),
-      cmocka_unit_test(test_other_kinds), cmocka_unit_test(test_gains),
-      cmocka_unit_test(test_ranges),      cmocka_unit_test(test_switches),
-      cmocka_unit_test(test_twenty)};
-  return cmocka_run_group_tests(tests, chain_setup, chain_teardown);
+  return testing_run(chain_setup, chain_teardown);
 }

@@ -94,11 +94,5 @@ TEST(test_refused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_axes),
-      cmocka_unit_test(test_rays),
-      cmocka_unit_test(test_defaults),
-      cmocka_unit_test(test_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

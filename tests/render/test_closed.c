@@ -184,10 +184,5 @@ TEST(test_threads) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_closed),     cmocka_unit_test(test_one_sample),
-      cmocka_unit_test(test_paper_mean), cmocka_unit_test(test_seeds),
-      cmocka_unit_test(test_threads),
-  };
-  return cmocka_run_group_tests_name("closed form and single samples", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -132,11 +132,5 @@ TEST(test_back_to_back) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_axes),
-      cmocka_unit_test(test_all_axes),
-      cmocka_unit_test(test_skipped),
-      cmocka_unit_test(test_back_to_back),
-  };
-  return cmocka_run_group_tests_name("counts", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -360,12 +360,5 @@ TEST(test_refuses) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tolerance), cmocka_unit_test(test_tolerance_st_plane),
-      cmocka_unit_test(test_work),      cmocka_unit_test(test_way_from_the_lamp),
-      cmocka_unit_test(test_sizes),     cmocka_unit_test(test_linear),
-      cmocka_unit_test(test_threads),   cmocka_unit_test(test_views),
-      cmocka_unit_test(test_memory),    cmocka_unit_test(test_refuses),
-  };
-  return cmocka_run_group_tests_name("cut", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

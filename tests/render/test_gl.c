@@ -332,16 +332,5 @@ TEST(no_leaks) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sums_over_views),
-      cmocka_unit_test(lights_and_pages_add_up),
-      cmocka_unit_test(more_views_than_layers),
-      cmocka_unit_test(levels_keep_the_light),
-      cmocka_unit_test(energy_is_independent_of_resolution),
-      cmocka_unit_test(shadows_are_where_rays_are_stopped),
-      cmocka_unit_test(groups_err_in_the_rim_alone),
-      cmocka_unit_test(no_acne),
-      cmocka_unit_test(no_leaks),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -96,7 +96,5 @@ TEST(test_tolerance) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_brute_force),
-                                     cmocka_unit_test(test_tolerance)};
-  return cmocka_run_group_tests_name("highlights", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

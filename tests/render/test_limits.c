@@ -336,16 +336,5 @@ TEST(test_matrix) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_touching),
-      cmocka_unit_test(test_beside_and_behind),
-      cmocka_unit_test(test_on_lines),
-      cmocka_unit_test(test_units),
-      cmocka_unit_test(test_pages),
-      cmocka_unit_test(test_gain),
-      cmocka_unit_test(test_negative_samples),
-      cmocka_unit_test(test_placement),
-      cmocka_unit_test(test_matrix),
-  };
-  return cmocka_run_group_tests_name("limits", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

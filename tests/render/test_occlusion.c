@@ -198,10 +198,5 @@ TEST(test_refused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_no_acne), cmocka_unit_test(test_no_leak),
-      cmocka_unit_test(test_ceiling), cmocka_unit_test(test_nearest),
-      cmocka_unit_test(test_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -236,9 +236,6 @@ TEST(test_flux) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_samples), cmocka_unit_test(test_focus),
-                                     cmocka_unit_test(test_anywhere), cmocka_unit_test(test_blur),
-                                     cmocka_unit_test(test_flux)};
   fill_pixels();
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -211,10 +211,5 @@ TEST(test_constant) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_oracle_lambert), cmocka_unit_test(test_oracle_brute),
-      cmocka_unit_test(test_rough),          cmocka_unit_test(test_tolerance),
-      cmocka_unit_test(test_constant),
-  };
-  return cmocka_run_group_tests_name("reference", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -277,11 +277,5 @@ TEST(test_gltf) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_obj),      cmocka_unit_test(test_obj_refused),
-      cmocka_unit_test(test_repeated), cmocka_unit_test(test_mtl_refused),
-      cmocka_unit_test(test_no_file),  cmocka_unit_test(test_ply),
-      cmocka_unit_test(test_gltf),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -124,6 +124,5 @@ TEST(test_floor) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_certain), cmocka_unit_test(test_floor)};
-  return cmocka_run_group_tests_name("shaft", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -109,7 +109,5 @@ TEST(test_embedded) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_textures),
-                                     cmocka_unit_test(test_embedded)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -81,10 +81,5 @@ TEST(test_few) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_all_once),
-      cmocka_unit_test(test_lowest_failure),
-      cmocka_unit_test(test_few),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

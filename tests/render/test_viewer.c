@@ -357,10 +357,5 @@ TEST(is_put_on_the_screen) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(shows_what_camera_rays_see), cmocka_unit_test(all_shares_are_the_whole),
-      cmocka_unit_test(a_part_estimates_the_whole), cmocka_unit_test(lights_move),
-      cmocka_unit_test(pages_behind_are_skipped),   cmocka_unit_test(is_put_on_the_screen),
-  };
-  return cmocka_run_group_tests(tests, make_all, free_all);
+  return testing_run(make_all, free_all);
 }

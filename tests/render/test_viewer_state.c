@@ -260,11 +260,5 @@ TEST(letters_have_their_dots) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_camera_turns),        cmocka_unit_test(the_camera_moves),
-      cmocka_unit_test(lights_move_and_turn),    cmocka_unit_test(letters_choose),
-      cmocka_unit_test(what_is_no_key_is_told),  cmocka_unit_test(the_command_is_complete),
-      cmocka_unit_test(letters_have_their_dots),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -197,7 +197,5 @@ TEST(test_aligned) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_or_none),
-                                     cmocka_unit_test(test_areas), cmocka_unit_test(test_aligned)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -360,19 +360,5 @@ TEST(test_point_flux) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_parallelogram),
-      cmocka_unit_test(test_exact_parallelograms),
-      cmocka_unit_test(test_flat_parallelograms),
-      cmocka_unit_test(test_nonnegative),
-      cmocka_unit_test(test_flux_of_lobes),
-      cmocka_unit_test(test_slopes),
-      cmocka_unit_test(test_flux),
-      cmocka_unit_test(test_determinism),
-      cmocka_unit_test(test_known_mixture),
-      cmocka_unit_test(test_one_sample),
-      cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_point_flux),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -101,7 +101,5 @@ TEST(test_twice) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_even), cmocka_unit_test(test_colours),
-                                     cmocka_unit_test(test_peaks), cmocka_unit_test(test_twice)};
-  return cmocka_run_group_tests_name("flux on a box", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

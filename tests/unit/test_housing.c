@@ -128,9 +128,5 @@ TEST(test_harmless) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_found), cmocka_unit_test(test_quiet_text),
-      cmocka_unit_test(test_left_alone), cmocka_unit_test(test_conditional),
-      cmocka_unit_test(test_harmless)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

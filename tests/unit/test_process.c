@@ -19,8 +19,7 @@ static enum result shell(const char *line, struct process *process, struct error
   return process_run(process, error);
 }
 
-static void test_given(void **state) {
-  (void)state;
+TEST(test_given) {
   struct process process;
   struct error error;
   assert_ok(shell("echo $GIVEN $HOME; pwd >&2; cat", &process, &error), &error);
@@ -28,8 +27,7 @@ static void test_given(void **state) {
   assert_null(getenv("GIVEN"));
 }
 
-static void test_ends(void **state) {
-  (void)state;
+TEST(test_ends) {
   static const struct {
     const char *line, *message;
     int exit;
@@ -49,8 +47,7 @@ static void test_ends(void **state) {
 }
 
 /* Neither a program that is not there nor one that says too much makes its parent wait. */
-static void test_troubles(void **state) {
-  (void)state;
+TEST(test_troubles) {
   struct process process;
   struct error error;
   const char *words[] = {"/nowhere/program", NULL};
@@ -64,10 +61,5 @@ static void test_troubles(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_given),
-      cmocka_unit_test(test_ends),
-      cmocka_unit_test(test_troubles),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -244,15 +244,5 @@ TEST(test_absurd_allocation) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_positions),
-      cmocka_unit_test(test_lookup_at_samples),
-      cmocka_unit_test(test_lookup_against_oracle),
-      cmocka_unit_test(test_lookup_outside_and_nan),
-      cmocka_unit_test(test_rays),
-      cmocka_unit_test(test_units),
-      cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_absurd_allocation),
-  };
-  return cmocka_run_group_tests_name("slab", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

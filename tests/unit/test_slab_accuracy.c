@@ -237,10 +237,5 @@ TEST(test_corners) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lobe),  cmocka_unit_test(test_peak),      cmocka_unit_test(test_edge),
-      cmocka_unit_test(test_paper), cmocka_unit_test(test_sharpened), cmocka_unit_test(test_noise),
-      cmocka_unit_test(test_units), cmocka_unit_test(test_corners),
-  };
-  return cmocka_run_group_tests_name("the slab's own error", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -239,18 +239,5 @@ TEST(test_crop) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_constant_infinite),
-      cmocka_unit_test(test_hemisphere),
-      cmocka_unit_test(test_metric),
-      cmocka_unit_test(test_one_colour),
-      cmocka_unit_test(test_constant_finite),
-      cmocka_unit_test(test_against_lookup),
-      cmocka_unit_test(test_superposition),
-      cmocka_unit_test(test_reduction_keeps_energy),
-      cmocka_unit_test(test_reduction_by_share),
-      cmocka_unit_test(test_enlargement),
-      cmocka_unit_test(test_crop),
-  };
-  return cmocka_run_group_tests_name("flux and resampling", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -72,8 +72,5 @@ TEST(test_provenance_of_changed) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_unknown_keys_are_kept),
-                                     cmocka_unit_test(test_provenance),
-                                     cmocka_unit_test(test_provenance_of_changed)};
-  return cmocka_run_group_tests_name("a page's JSON", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -88,8 +88,5 @@ TEST(test_failure_leaves_nothing) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_links),
-                                     cmocka_unit_test(test_refused_targets),
-                                     cmocka_unit_test(test_failure_leaves_nothing)};
-  return cmocka_run_group_tests_name("outputs", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

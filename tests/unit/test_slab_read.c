@@ -333,19 +333,6 @@ TEST(test_lying_header) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tiff_layouts),
-      cmocka_unit_test(test_tiff_pages),
-      cmocka_unit_test(test_exr_layouts),
-      cmocka_unit_test(test_exr_parts),
-      cmocka_unit_test(test_logluv),
-      cmocka_unit_test(test_refused_descriptions),
-      cmocka_unit_test(test_refused_samples),
-      cmocka_unit_test(test_refused_pixels),
-      cmocka_unit_test(test_foreign_and_empty),
-      cmocka_unit_test(test_truncated),
-      cmocka_unit_test(test_lying_header),
-  };
   TIFFSetWarningHandler(NULL);
-  return cmocka_run_group_tests_name("slab files of others", tests, fill_pixels, NULL);
+  return testing_run(fill_pixels, NULL);
 }

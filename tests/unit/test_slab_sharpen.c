@@ -196,11 +196,5 @@ TEST(test_record) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_cell_means), cmocka_unit_test(test_lines),
-      cmocka_unit_test(test_constant),   cmocka_unit_test(test_negative),
-      cmocka_unit_test(test_limits),     cmocka_unit_test(test_flux),
-      cmocka_unit_test(test_record),
-  };
-  return cmocka_run_group_tests_name("sharpening", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }

@@ -271,11 +271,5 @@ TEST(test_exr_errors) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_round_trips),      cmocka_unit_test(test_logluv_range),
-      cmocka_unit_test(test_logluv_saturated), cmocka_unit_test(test_tiff_as_others_see_it),
-      cmocka_unit_test(test_refused_samples),  cmocka_unit_test(test_extremes),
-      cmocka_unit_test(test_exr_chunk_sizes),  cmocka_unit_test(test_exr_errors),
-  };
-  return cmocka_run_group_tests_name("slab files of ours", tests, NULL, NULL);
+  return testing_run(NULL, NULL);
 }
