@@ -72,6 +72,34 @@ static enum result begin_file(struct output *output, const char *path, struct er
   return RESULT_OK;
 }
 
+/* By whatever links; files that are not there are the same by name. */
+static bool same_file(const char *output, const char *other, bool input) {
+  struct stat a, b;
+  if (!strcmp(output, "-")) return !input && !strcmp(other, "-");
+  if (!strcmp(output, other)) return true;
+  bool there = input && !strcmp(other, "-") ? fstat(STDIN_FILENO, &b) == 0 : stat(other, &b) == 0;
+  return there && stat(output, &a) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+enum result output_check(const char *const *outputs, int output_count, const char *const *inputs,
+                         int input_count, struct error *error) {
+  for (int k = 0; k < output_count; ++k) {
+    if (!outputs[k]) continue;
+    for (int i = 0; i < input_count; ++i)
+      if (inputs[i] && same_file(outputs[k], inputs[i], true))
+        return result_fail(error, RESULT_BAD, "%s: is read too and would be overwritten",
+                           outputs[k]);
+    for (int i = 0; i < k; ++i)
+      if (outputs[i] && same_file(outputs[k], outputs[i], false))
+        return result_fail(error, RESULT_BAD, "%s: is to hold two different outputs", outputs[k]);
+    struct output trial;
+    enum result result = output_begin(&trial, outputs[k], error);
+    output_abandon(&trial);
+    if (result != RESULT_OK) return result;
+  }
+  return RESULT_OK;
+}
+
 enum result output_begin(struct output *output, const char *path, struct error *error) {
   *output = (struct output){.fd = -1};
   bool piped = !strcmp(path, "-");
@@ -121,6 +149,16 @@ enum result output_commit(struct output *output, struct error *error) {
   if (result == RESULT_OK)
     result = output->temporary ? rename_file(output, error) : copy_to_stdout(output, error);
   output_abandon(output);
+  return result;
+}
+
+enum result output_text(const char *path, const char *text, size_t length, struct error *error) {
+  struct output output = {0};
+  enum result result = output_begin(&output, path, error);
+  if (result == RESULT_OK && output_write(&output, text, length, 0) != 0)
+    result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
+  if (result == RESULT_OK) result = output_commit(&output, error);
+  output_abandon(&output);
   return result;
 }
 

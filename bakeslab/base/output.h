@@ -15,6 +15,11 @@ struct output {
   int flushed;     /* nothing was written since */
 };
 
+/* Before the work: refuses outputs that cannot be written, that are one file, or that are one of
+ * the inputs, naming them. NULL among either is skipped; "-" is standard output, or input. */
+enum result output_check(const char *const *outputs, int output_count, const char *const *inputs,
+                         int input_count, struct error *error);
+
 /* Creates the temporary file. The path "-" is standard output, to which an unnamed
  * temporary file is copied in the end. Any other target may exist if it is a regular file
  * (through symbolic links, which are kept); a link to nothing is refused. */
@@ -29,6 +34,9 @@ enum result output_flush(struct output *output, struct error *error);
 
 /* Flushes to disk, closes and renames. After a failure nothing is left behind. */
 enum result output_commit(struct output *output, struct error *error);
+
+/* Makes a file of a text. */
+enum result output_text(const char *path, const char *text, size_t length, struct error *error);
 
 /* Closes and removes the temporary file. Allowed on a zeroed output, and after
  * a commit, where it does nothing. */

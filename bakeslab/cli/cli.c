@@ -9,10 +9,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/numbers.h"
 #include "base/version.h"
 #include "cli/arguments.h"
-
-enum { MAX_SIZE = 65536 };
 
 static const char *name_of_program;
 static char *command_line;
@@ -62,31 +61,8 @@ bool cli_quiet(void) {
   return quiet;
 }
 
-/* ---- Sizes ---- */
-
-/* A decimal number from 1 to MAX_SIZE without sign or blanks. */
-static bool parse_count(const char *text, const char **end, int *count) {
-  int value = 0;
-  const char *c = text;
-  for (; *c >= '0' && *c <= '9'; ++c) {
-    value = value * 10 + (*c - '0');
-    if (value > MAX_SIZE) return false;
-  }
-  *end = c;
-  *count = value;
-  return c > text && value >= 1;
-}
-
 bool cli_parse_size(const char *text, int size[2]) {
-  const char *end;
-  int n, m;
-  if (!parse_count(text, &end, &n)) return false;
-  m = n;
-  if (*end == 'x' && !parse_count(end + 1, &end, &m)) return false;
-  if (*end) return false;
-  size[0] = n;
-  size[1] = m;
-  return true;
+  return numbers_size(text, size);
 }
 
 /* ---- The recorded command line ---- */
@@ -207,11 +183,17 @@ static error_t parse_common(int key, char *argument, struct argp_state *state) {
 
 static const struct argp_option common_options[] = {
     {"quiet", 'q', NULL, 0, "No notes and no progress on stderr; errors are still told", 0}, {0}};
-static const struct argp common = {.options = common_options, .parser = parse_common};
-const struct argp_child cli_options[] = {{&common, 0, NULL, 0}, {0}};
+const struct argp cli_argp = {.options = common_options, .parser = parse_common};
+const struct argp_child cli_options[] = {{&cli_argp, 0, NULL, 0}, {0}};
 
 void cli_parse(const struct argp *argp, int argc, char **argv, void *input) {
   if (argp_parse(argp, argc, argv, 0, NULL, input) != 0) cli_out_of_memory();
+}
+
+int cli_run(const struct argp *argp, int argc, char **argv, cli_work *work, void *input) {
+  struct error error = {{0}};
+  cli_parse(argp, argc, argv, input);
+  return cli_end(work(input, &error), &error);
 }
 
 /* ---- From a program's arguments to one of its commands ---- */

@@ -52,16 +52,21 @@ int cli_close_stdout(void);
 /* The end of a command: prints the error of a failure, closes stdout, returns the exit status. */
 int cli_end(enum result result, const struct error *error);
 
-/* Parses "NxM" (or "N" for NxN), both at least 1 and at most 65536. */
+/* numbers_size. */
 bool cli_parse_size(const char *text, int size[2]);
 
 /* For the `children` of every command's argp: the option -q, and that argp_error() and
  * unknown options make one line and exit status 2. argp_usage() would print many lines:
  * say by argp_error() what is missing. */
-extern const struct argp_child cli_options[];
+extern const struct argp cli_argp;
+extern const struct argp_child cli_options[]; /* of that alone */
 
 /* argp_parse with a command's arguments; ends the program where it has no memory. */
 void cli_parse(const struct argp *argp, int argc, char **argv, void *input);
+
+/* A command from its arguments, which are parsed into `input`, to cli_end. */
+typedef enum result cli_work(void *input, struct error *error);
+int cli_run(const struct argp *argp, int argc, char **argv, cli_work *work, void *input);
 
 /* Prints "out of memory" and ends the program as failed. */
 void cli_out_of_memory(void) __attribute__((noreturn));

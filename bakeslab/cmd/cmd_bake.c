@@ -42,7 +42,7 @@ static const struct argp_option options[] = {
     {0, 'o', "SLAB", 0, "the slab to write: .tif (LogLuv unless --precision is given) or .exr", 1},
     {"uv", OPTION_UV, "NxM", 0, "positions on the aperture (default 16x16)", 1},
     {"st", OPTION_ST, "NxM", 0, "directions at each position (default 64x64)", 1},
-    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "number format of the samples", 1},
+    {"precision", OPTION_PRECISION, CLI_PRECISIONS, 0, "number format of the samples", 1},
     {"rays", OPTION_RAYS, "K", 0,
      "rays a sample, on average: 1 or an even number (default 16). A sample is the mean over "
      "its 4D cell; the first 4 rays are shot everywhere, the others where those are noisy",
@@ -129,23 +129,6 @@ struct arguments {
   int library_count;
 };
 
-static int parse_number(struct argp_state *state, const char *option, const char *text, int least,
-                        int most) {
-  char *end;
-  long value = strtol(text, &end, 10);
-  if (end == text || *end || value < least || value > most)
-    argp_error(state, "%s %s: not a whole number from %d to %d", option, text, least, most);
-  return (int)value;
-}
-
-static int parse_word(struct argp_state *state, const char *option, const char *text,
-                      const char *const *words) {
-  for (int n = 0; words[n]; ++n)
-    if (!strcmp(text, words[n])) return n;
-  argp_error(state, "%s %s: see --help for what it may be", option, text);
-  return -1;
-}
-
 static void parse_shard(struct argp_state *state, const char *text, struct bake_options *bake) {
   int k, n, used = 0;
   if (sscanf(text, "%d/%d%n", &k, &n, &used) != 2 || text[used] || n < 1 || k < 1 || k > n)
@@ -166,99 +149,37 @@ static double parse_gain(struct argp_state *state, const char *text) {
   return gain;
 }
 
-/* Options that leave the choice to small bakes. */
-static error_t parse_choices(int key, char *text, struct argp_state *state,
-                             struct bake_options *bake) {
-  static const char *const windows[] = {"declared", "auto", NULL};
-  switch (key) {
-  case OPTION_EFFECTS:
-    bake->effects = text;
-    return 0;
-  case OPTION_THRESHOLD:
-    bake->effect_threshold = cli_parse_positive(state, "--effect-threshold", text);
-    return 0;
-  case OPTION_WINDOW:
-    bake->window_auto = parse_word(state, "--window", text, windows) == 1;
-    return 0;
-  case OPTION_TOLERANCE:
-    bake->tolerance = cli_parse_positive(state, "--tolerance", text);
-    return 0;
-  case OPTION_DISTANCE:
-    bake->for_distance = cli_parse_positive(state, "--for-distance", text);
-    return 0;
-  default:
-    return ARGP_ERR_UNKNOWN;
-  }
-}
-
-/* Options that say what to bake. */
-static error_t parse_samples(int key, char *text, struct argp_state *state,
-                             struct bake_options *bake) {
-  switch (key) {
-  case OPTION_UV:
-    cli_parse_samples(state, "--uv", text, bake->uv);
-    return 0;
-  case OPTION_ST:
-    cli_parse_samples(state, "--st", text, bake->st);
-    return 0;
-  case OPTION_PRECISION:
-    if (!cli_parse_precision(text, &bake->precision))
-      argp_error(state, "--precision %s: is none of logluv, float, half", text);
-    return 0;
-  case OPTION_RAYS:
-    bake->rays = parse_number(state, "--rays", text, 1, 4096);
-    return 0;
-  case OPTION_RAYS_MAX:
-    bake->rays_max = parse_number(state, "--rays-max", text, 1, 65536);
-    return 0;
-  case OPTION_UNIFORM:
-    bake->uniform = true;
-    return 0;
-  case OPTION_CENTRE:
-    bake->centre = true;
-    return 0;
-  default:
-    return ARGP_ERR_UNKNOWN;
-  }
-}
-
-/* Options that say how. */
-static error_t parse_means(int key, char *text, struct argp_state *state,
-                           struct bake_options *bake) {
-  static const char *const cameras[] = {"mesh", "perspective", "transposed", NULL};
-  switch (key) {
-  case OPTION_GAIN:
-    bake->gain = parse_gain(state, text);
-    return 0;
-  case OPTION_CAMERA:
-    bake->form = parse_word(state, "--camera", text, cameras);
-    return 0;
-  case 'j':
-    bake->jobs = parse_number(state, "--jobs", text, 1, 1024);
-    return 0;
-  case OPTION_SHARD:
-    parse_shard(state, text, bake);
-    return 0;
-  case OPTION_POVRAY:
-    bake->povray = text;
-    return 0;
-  case OPTION_SANDBOX:
-    bake->sandbox = true;
-    return 0;
-  case OPTION_DEPEND:
-    bake->depend = text;
-    return 0;
-  default:
-    return ARGP_ERR_UNKNOWN;
-  }
-}
+#define BAKE(member) offsetof(struct arguments, bake.member)
+static const struct value values[] = {
+    {'o', VALUE_TEXT, BAKE(output), 0, 0},
+    {OPTION_UV, VALUE_SIZE, BAKE(uv), 0, 0},
+    {OPTION_ST, VALUE_SIZE, BAKE(st), 0, 0},
+    {OPTION_PRECISION, VALUE_WORD, BAKE(precision), SLAB_PRECISION_LOGLUV, 0},
+    {OPTION_RAYS, VALUE_WHOLE, BAKE(rays), 1, 4096},
+    {OPTION_RAYS_MAX, VALUE_WHOLE, BAKE(rays_max), 1, 65536},
+    {OPTION_UNIFORM, VALUE_FLAG, BAKE(uniform), 0, 0},
+    {OPTION_CENTRE, VALUE_FLAG, BAKE(centre), 0, 0},
+    {OPTION_EFFECTS, VALUE_TEXT, BAKE(effects), 0, 0},
+    {OPTION_THRESHOLD, VALUE_POSITIVE, BAKE(effect_threshold), 0, 0},
+    {OPTION_WINDOW, VALUE_EITHER, BAKE(window_auto), 0, 0},
+    {OPTION_TOLERANCE, VALUE_POSITIVE, BAKE(tolerance), 0, 0},
+    {OPTION_DISTANCE, VALUE_POSITIVE, BAKE(for_distance), 0, 0},
+    {OPTION_CAMERA, VALUE_WORD, BAKE(form), 0, 0},
+    {'j', VALUE_WHOLE, BAKE(jobs), 1, 1024},
+    {OPTION_POVRAY, VALUE_TEXT, BAKE(povray), 0, 0},
+    {OPTION_SANDBOX, VALUE_FLAG, BAKE(sandbox), 0, 0},
+    {OPTION_DEPEND, VALUE_TEXT, BAKE(depend), 0, 0},
+    {0}};
 
 static error_t parse_option(int key, char *text, struct argp_state *state) {
   struct arguments *arguments = state->input;
   struct bake_options *bake = &arguments->bake;
   switch (key) {
-  case 'o':
-    bake->output = text;
+  case OPTION_GAIN:
+    bake->gain = parse_gain(state, text);
+    return 0;
+  case OPTION_SHARD:
+    parse_shard(state, text, bake);
     return 0;
   case 'L':
     if (arguments->library_count == LAMP_MAX_LIBRARIES) argp_error(state, "too many -L");
@@ -273,9 +194,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
     if (!bake->output) argp_error(state, "give -o SLAB");
     return 0;
   default:
-    if (parse_samples(key, text, state, bake) == 0 || parse_choices(key, text, state, bake) == 0)
-      return 0;
-    return parse_means(key, text, state, bake);
+    return values_take(values, options, key, text, arguments, state);
   }
 }
 

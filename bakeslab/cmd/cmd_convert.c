@@ -21,6 +21,34 @@ struct options {
 
 enum { OPTION_PRECISION = 256, OPTION_UV, OPTION_ST, OPTION_CROP, OPTION_SHARPEN, OPTION_POSITIVE };
 
+static const struct argp_option options_list[] = {
+    {"output", 'o', "OUT", 0,
+     "The file to write: .tif, .tiff or .exr; - writes a TIFF to standard output", 0},
+    {"precision", OPTION_PRECISION, CLI_PRECISIONS, 0,
+     "Number format of the samples: logluv (4 bytes) is the default for TIFF, float for EXR", 0},
+    {"uv", OPTION_UV, "NxM", 0, "Samples along u and v", 0},
+    {"st", OPTION_ST, "NxM", 0, "Samples along s and t", 0},
+    {"crop", OPTION_CROP, "RANGE", 0,
+     "Keep a part, before anything else: uv=I0:I1,J0:J1 or st=K0:K1,L0:L1, sample numbers from "
+     "0, the end not included. May be given for both.",
+     0},
+    {"sharpen", OPTION_SHARPEN, "st", 0,
+     "After all that: sharpen along s and t, so that the interpolated radiance keeps the means "
+     "over cells that the samples are",
+     0},
+    {"positive", OPTION_POSITIVE, NULL, 0,
+     "With --sharpen, no sample becomes negative, as always in LogLuv; include needs it", 0},
+    {0}};
+
+#define OPTION(member) offsetof(struct options, member)
+static const struct value values[] = {
+    {'o', VALUE_TEXT, OPTION(output), 0, 0},
+    {OPTION_PRECISION, VALUE_WORD, OPTION(precision), SLAB_PRECISION_LOGLUV, 0},
+    {OPTION_UV, VALUE_SIZE, OPTION(samples[SLAB_U]), 0, 0},
+    {OPTION_ST, VALUE_SIZE, OPTION(samples[SLAB_S]), 0, 0},
+    {OPTION_POSITIVE, VALUE_FLAG, OPTION(positive), 0, 0},
+    {0}};
+
 /* uv=I0:I1,J0:J1 or st=K0:K1,L0:L1 */
 static void parse_crop(const char *text, struct options *options, struct argp_state *state) {
   int axis = !strncmp(text, "uv=", 3) ? SLAB_U : !strncmp(text, "st=", 3) ? SLAB_S : -1;
@@ -37,19 +65,6 @@ static void parse_crop(const char *text, struct options *options, struct argp_st
 static error_t parse(int key, char *argument, struct argp_state *state) {
   struct options *options = state->input;
   switch (key) {
-  case 'o':
-    options->output = argument;
-    return 0;
-  case OPTION_PRECISION:
-    if (!cli_parse_precision(argument, &options->precision))
-      argp_error(state, "--precision %s: must be logluv, float or half", argument);
-    return 0;
-  case OPTION_UV:
-    cli_parse_samples(state, "--uv", argument, options->samples + SLAB_U);
-    return 0;
-  case OPTION_ST:
-    cli_parse_samples(state, "--st", argument, options->samples + SLAB_S);
-    return 0;
   case OPTION_CROP:
     parse_crop(argument, options, state);
     return 0;
@@ -57,14 +72,12 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     if (strcmp(argument, "st") != 0) argp_error(state, "--sharpen %s: must be st", argument);
     options->sharpen = true;
     return 0;
-  case OPTION_POSITIVE:
-    options->positive = true;
-    return 0;
   case ARGP_KEY_SUCCESS:
     if (!options->output) argp_error(state, "no output given: -o OUT");
     if (options->positive && !options->sharpen) argp_error(state, "--positive needs --sharpen");
     return 0;
   default:
+    if (values_take(values, options_list, key, argument, options, state) == 0) return 0;
     return cli_parse_slab(key, argument, state, &options->input);
   }
 }
@@ -133,7 +146,8 @@ static enum result convert_page(const struct options *options, struct slab *slab
   return result;
 }
 
-static enum result run(const struct options *options, struct error *error) {
+static enum result run(void *input, struct error *error) {
+  const struct options *options = input;
   struct slab *slabs = NULL;
   int count = 0;
   enum result result = slab_file_load_all(options->input, &slabs, &count, error);
@@ -148,26 +162,8 @@ static enum result run(const struct options *options, struct error *error) {
 }
 
 int cmd_convert(int argc, char **argv) {
-  static const struct argp_option option[] = {
-      {"output", 'o', "OUT", 0,
-       "The file to write: .tif, .tiff or .exr; - writes a TIFF to standard output", 0},
-      {"precision", OPTION_PRECISION, "P", 0,
-       "logluv (the default for TIFF; 4 bytes), float (the default for EXR) or half", 0},
-      {"uv", OPTION_UV, "NxM", 0, "Samples along u and v", 0},
-      {"st", OPTION_ST, "NxM", 0, "Samples along s and t", 0},
-      {"crop", OPTION_CROP, "RANGE", 0,
-       "Keep a part, before anything else: uv=I0:I1,J0:J1 or st=K0:K1,L0:L1, sample numbers from "
-       "0, the end not included. May be given for both.",
-       0},
-      {"sharpen", OPTION_SHARPEN, "st", 0,
-       "After all that: sharpen along s and t, so that the interpolated radiance keeps the means "
-       "over cells that the samples are",
-       0},
-      {"positive", OPTION_POSITIVE, NULL, 0,
-       "With --sharpen, no sample becomes negative, as always in LogLuv; include needs it", 0},
-      {0}};
   static const struct argp argp = {
-      .options = option,
+      .options = options_list,
       .parser = parse,
       .children = cli_options,
       .args_doc = "SLAB -o OUT",
@@ -191,7 +187,5 @@ int cmd_convert(int argc, char **argv) {
              "  bakeslab convert lamp.tif -o middle.tif --crop st=16:48,16:48\n"
              "  bakeslab convert lamp.tif -o - --uv 4x4 | bakeslab info -"};
   struct options options = {0};
-  struct error error = {{0}};
-  cli_parse(&argp, argc, argv, &options);
-  return cli_end(run(&options, &error), &error);
+  return cli_run(&argp, argc, argv, run, &options);
 }

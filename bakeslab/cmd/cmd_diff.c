@@ -15,15 +15,18 @@ struct options {
   double tolerance; /* of the largest difference, relative to the peak */
 };
 
+static const struct argp_option options_list[] = {
+    {"tolerance", 't', "T", 0,
+     "Largest difference of a sample that still counts as same, relative to the page's peak "
+     "(default 0)",
+     0},
+    {0}};
+static const struct value values[] = {
+    {'t', VALUE_REAL, offsetof(struct options, tolerance), 0, INFINITY}, {0}};
+
 static error_t parse(int key, char *argument, struct argp_state *state) {
   struct options *options = state->input;
-  char *end;
   switch (key) {
-  case 't':
-    options->tolerance = strtod(argument, &end);
-    if (end == argument || *end || !(options->tolerance >= 0))
-      argp_error(state, "--tolerance %s: must be a number, at least 0", argument);
-    return 0;
   case ARGP_KEY_ARG:
     if (state->arg_num >= 2) argp_error(state, "%s: two slabs at a time", argument);
     options->paths[state->arg_num] = argument;
@@ -32,7 +35,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     if (state->arg_num < 2) argp_error(state, "give two slabs");
     return 0;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return values_take(values, options_list, key, argument, options, state);
   }
 }
 
@@ -111,14 +114,8 @@ static enum result compare(const struct options *options, bool *differ, struct e
 }
 
 int cmd_diff(int argc, char **argv) {
-  static const struct argp_option option[] = {
-      {"tolerance", 't', "T", 0,
-       "Largest difference of a sample that still counts as same, relative to the page's peak "
-       "(default 0)",
-       0},
-      {0}};
   static const struct argp argp = {
-      .options = option,
+      .options = options_list,
       .parser = parse,
       .children = cli_options,
       .args_doc = "A B",

@@ -3,8 +3,6 @@
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/output.h"
 #include "base/sdl.h"
@@ -46,7 +44,7 @@ static const char help_text[] =
     "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light";
 
 enum { DEFAULT_CLUSTER = 16 };
-static const double default_distance = 4, least_distance = 0.01, most_distance = 1e6;
+static const double default_distance = 4;
 
 struct arguments {
   const char *slab;
@@ -71,6 +69,14 @@ static const struct argp_option options[] = {
     {"distance", KEY_DISTANCE, "D", 0, "where T holds, in aperture widths (default 4)", 0},
     {"name", 'n', "NAME", 0, "call the lamp NAME rather than what the slab says", 0},
     {0}};
+
+#define ARGUMENT(member) offsetof(struct arguments, member)
+static const struct value values[] = {{'o', VALUE_TEXT, ARGUMENT(output), 0, 0},
+                                      {'l', VALUE_WHOLE, ARGUMENT(lights), 1, 65536},
+                                      {KEY_TOLERANCE, VALUE_POSITIVE, ARGUMENT(tolerance), 0, 0},
+                                      {KEY_DISTANCE, VALUE_REAL, ARGUMENT(distance), 0.01, 1e6},
+                                      {'n', VALUE_TEXT, ARGUMENT(name), 0, 0},
+                                      {0}};
 
 static const struct {
   const char *name;
@@ -100,35 +106,15 @@ static void check_arguments(const struct arguments *arguments, struct argp_state
 
 static error_t parse_option(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
-  int size[2];
   switch (key) {
-  case 'o':
-    arguments->output = value;
-    return 0;
   case 'm':
     arguments->modes = parse_mode(value, state);
-    return 0;
-  case 'l':
-    if (!cli_parse_size(value, size) || size[0] != size[1])
-      argp_error(state, "--lights %s: must be a whole number from 1 to 65536", value);
-    arguments->lights = size[0];
-    return 0;
-  case KEY_TOLERANCE:
-    arguments->tolerance = cli_parse_positive(state, "--tolerance", value);
-    return 0;
-  case KEY_DISTANCE:
-    arguments->distance = cli_parse_positive(state, "--distance", value);
-    if (arguments->distance < least_distance || arguments->distance > most_distance)
-      argp_error(state, "--distance %s: must be from %g to %g aperture widths", value,
-                 least_distance, most_distance);
-    return 0;
-  case 'n':
-    arguments->name = value;
     return 0;
   case ARGP_KEY_SUCCESS:
     check_arguments(arguments, state);
     return 0;
   default:
+    if (values_take(values, options, key, value, arguments, state) == 0) return 0;
     return cli_parse_slab(key, value, state, &arguments->slab);
   }
 }
@@ -152,28 +138,6 @@ static char *image_path(const char *include) {
   char *path = strdup(include);
   if (path) memcpy(path + strlen(path) - 4, ".exr", 4);
   return path;
-}
-
-/* Whether both paths lead, by whatever links, to one file that is there. */
-static int same_file(const char *path, const char *other) {
-  struct stat a, b;
-  if ((strcmp(path, "-") ? stat(path, &a) : fstat(STDIN_FILENO, &a)) != 0) return 0;
-  return stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
-/* The slab may be an EXR of the name that the image would get. */
-static enum result check_outputs(const char *slab, const char *include, const char *image,
-                                 struct error *error) {
-  const char *outputs[2] = {include, image};
-  for (int k = 0; k < 2; ++k)
-    if (same_file(slab, outputs[k]))
-      return result_fail(error, RESULT_BAD,
-                         "%s: is the slab itself and would be overwritten; choose another -o",
-                         outputs[k]);
-  if (same_file(include, image))
-    return result_fail(error, RESULT_BAD, "%s: is the same file as %s; choose another -o", image,
-                       include);
-  return RESULT_OK;
 }
 
 /* The image of the include; NULL where it has none. */
@@ -278,7 +242,10 @@ static enum result include_slab(const struct arguments *arguments, struct error 
   char *image = image_path(arguments->output);
   enum result result = RESULT_OK;
   if (!image) result = result_fail(error, RESULT_MEMORY, "out of memory");
-  if (result == RESULT_OK) result = check_outputs(arguments->slab, arguments->output, image, error);
+  if (result == RESULT_OK) {
+    const char *outputs[2] = {arguments->output, image};
+    result = output_check(outputs, 2, &arguments->slab, 1, error);
+  }
   if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
   if (result == RESULT_OK) {
     result = choose_name(arguments->name, &slabs[0], name, error);

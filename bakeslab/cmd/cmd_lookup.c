@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/numbers.h"
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
 
@@ -13,20 +14,15 @@ struct options {
   int page; /* 1-based; 0 for all */
 };
 
+static const struct argp_option options_list[] = {
+    {"page", 'p', "N", 0, "Only this page, from 1 (all pages are added up)", 0}, {0}};
+static const struct value values[] = {
+    {'p', VALUE_WHOLE, offsetof(struct options, page), 1, 1000000}, {0}};
+
 static error_t parse(int key, char *argument, struct argp_state *state) {
   struct options *options = state->input;
-  char *end;
-  switch (key) {
-  case 'p':
-    errno = 0;
-    long page = strtol(argument, &end, 10);
-    if (*end || end == argument || errno || page < 1 || page > 1000000)
-      argp_error(state, "--page %s: must be a page number, from 1", argument);
-    options->page = (int)page;
-    return 0;
-  default:
-    return cli_parse_slab(key, argument, state, &options->path);
-  }
+  if (values_take(values, options_list, key, argument, options, state) == 0) return 0;
+  return cli_parse_slab(key, argument, state, &options->path);
 }
 
 /* A page of which some views are loaded. Memory that no ray touches is never
@@ -101,17 +97,11 @@ static enum result add_radiance(struct slab_file *file, int page, struct lazy_pa
 
 /* 1 for a ray, 0 for a line without one, -1 for a line that is neither. */
 static int parse_ray(const char *line, double ray[6]) {
-  const char *c = line + strspn(line, " \t\r\n");
-  if (!*c || *c == '#') return 0;
-  for (int k = 0; k < 6; ++k) {
-    char *end;
-    ray[k] = strtod(c, &end);
-    if (end == c || !isfinite(ray[k])) return -1;
-    c = end;
-  }
-  c += strspn(c, " \t\r\n");
-  if (*c || (ray[3] == 0 && ray[4] == 0 && ray[5] == 0)) return -1;
-  return 1;
+  line += strspn(line, NUMBERS_BLANKS);
+  if (!*line || *line == '#') return 0;
+  const char *end = numbers_read(line, ' ', 6, ray);
+  if (!end || end[strspn(end, NUMBERS_BLANKS)]) return -1;
+  return ray[3] == 0 && ray[4] == 0 && ray[5] == 0 ? -1 : 1;
 }
 
 static enum result look_up(struct slab_file *file, struct lazy_page *pages, int first, int end,
@@ -161,10 +151,8 @@ static enum result run(const struct options *options, struct error *error) {
 }
 
 int cmd_lookup(int argc, char **argv) {
-  static const struct argp_option option[] = {
-      {"page", 'p', "N", 0, "Only this page, from 1 (all pages are added up)", 0}, {0}};
   static const struct argp argp = {
-      .options = option,
+      .options = options_list,
       .parser = parse,
       .children = cli_options,
       .args_doc = "SLAB",

@@ -1,9 +1,10 @@
 /* cmd_projector.c - bakeslab projector: an image becomes the slab of a slide projector. */
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "bake/projector.h"
+#include "base/numbers.h"
+#include "base/output.h"
 #include "base/sdl.h"
 #include "base/version.h"
 #include "cmd/slab_options.h"
@@ -52,7 +53,7 @@ static const struct argp_option options[] = {
     {"unit", OPTION_UNIT, "UNIT", 0, "Unit of radiance: cd/m2, W/(sr m2) or relative (the default)",
      3},
     {"metres-per-unit", OPTION_METRES, "M", 0, "Length of a lamp unit in metres (default 1)", 3},
-    {"precision", OPTION_PRECISION, "logluv|float|half", 0, "Number format of the samples", 1},
+    {"precision", OPTION_PRECISION, CLI_PRECISIONS, 0, "Number format of the samples", 1},
     {0}};
 
 static const char doc[] =
@@ -78,11 +79,12 @@ static const char doc[] =
 
 static void parse_aperture(struct argp_state *state, const char *text, double aperture[2]) {
   char width[64];
-  const char *height = strchr(text, 'x');
-  int length = height ? (int)(height - text) : (int)strlen(text);
+  int length = (int)strcspn(text, "x"); /* "0x2" is no hexadecimal number here */
   snprintf(width, sizeof width, "%.*s", length, text);
-  aperture[0] = cli_parse_positive(state, "--aperture", width);
-  aperture[1] = height ? cli_parse_positive(state, "--aperture", height + 1) : aperture[0];
+  if (!numbers_real(width, 1, &aperture[0]) ||
+      !numbers_real(text[length] ? text + length + 1 : width, 1, &aperture[1]) ||
+      !(aperture[0] > 0 && aperture[1] > 0))
+    argp_error(state, "--aperture %s: must be a positive number, or two as in 5x3", text);
 }
 
 static void check_arguments(struct argp_state *state, struct arguments *arguments) {
@@ -99,52 +101,25 @@ static void check_arguments(struct argp_state *state, struct arguments *argument
   if (projector_check(projector, &error) != RESULT_OK) argp_error(state, "%s", error.text);
 }
 
-/* What the projector is; false for other keys. */
-static bool parse_projector(int key, char *text, struct argp_state *state,
-                            struct projector *projector) {
-  switch (key) {
-  case OPTION_APERTURE:
-    parse_aperture(state, text, projector->aperture);
-    return true;
-  case OPTION_FOCUS:
-    projector->focus = cli_parse_positive(state, "--focus", text);
-    return true;
-  case OPTION_WIDTH:
-    projector->width = cli_parse_positive(state, "--width", text);
-    return true;
-  case OPTION_UV:
-    cli_parse_samples(state, "--uv", text, projector->uv);
-    return true;
-  case OPTION_ST:
-    cli_parse_samples(state, "--st", text, projector->st);
-    return true;
-  case OPTION_WHITE:
-    projector->white = cli_parse_positive(state, "--white", text);
-    return true;
-  case OPTION_FLUX:
-    projector->flux = cli_parse_positive(state, "--flux", text);
-    return true;
-  case OPTION_UNIT:
-    projector->unit = text;
-    return true;
-  case OPTION_METRES:
-    projector->metres_per_unit = cli_parse_positive(state, "--metres-per-unit", text);
-    return true;
-  default:
-    return false;
-  }
-}
+#define PROJECTOR(member) offsetof(struct arguments, projector.member)
+static const struct value values[] = {
+    {'o', VALUE_TEXT, offsetof(struct arguments, output), 0, 0},
+    {OPTION_FOCUS, VALUE_POSITIVE, PROJECTOR(focus), 0, 0},
+    {OPTION_WIDTH, VALUE_POSITIVE, PROJECTOR(width), 0, 0},
+    {OPTION_UV, VALUE_SIZE, PROJECTOR(uv), 0, 0},
+    {OPTION_ST, VALUE_SIZE, PROJECTOR(st), 0, 0},
+    {OPTION_WHITE, VALUE_POSITIVE, PROJECTOR(white), 0, 0},
+    {OPTION_FLUX, VALUE_POSITIVE, PROJECTOR(flux), 0, 0},
+    {OPTION_UNIT, VALUE_TEXT, PROJECTOR(unit), 0, 0},
+    {OPTION_METRES, VALUE_POSITIVE, PROJECTOR(metres_per_unit), 0, 0},
+    {OPTION_PRECISION, VALUE_WORD, offsetof(struct arguments, precision), SLAB_PRECISION_LOGLUV, 0},
+    {0}};
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   struct arguments *arguments = state->input;
-  if (parse_projector(key, text, state, &arguments->projector)) return 0;
   switch (key) {
-  case 'o':
-    arguments->output = text;
-    return 0;
-  case OPTION_PRECISION:
-    if (!cli_parse_precision(text, &arguments->precision))
-      argp_error(state, "--precision %s: must be logluv, float or half", text);
+  case OPTION_APERTURE:
+    parse_aperture(state, text, arguments->projector.aperture);
     return 0;
   case ARGP_KEY_ARG:
     if (arguments->image) argp_error(state, "%s: one image at a time", text);
@@ -154,17 +129,14 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     check_arguments(state, arguments);
     return 0;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return values_take(values, options, key, text, arguments, state);
   }
 }
 
 /* Refuses what could not be written, and to write over the image. */
 static enum result check_output(const struct arguments *arguments, struct error *error) {
-  struct stat image, output;
-  if (stat(arguments->image, &image) == 0 && stat(arguments->output, &output) == 0 &&
-      image.st_dev == output.st_dev && image.st_ino == output.st_ino)
-    return result_fail(error, RESULT_BAD, "%s: is the image; give the slab another name",
-                       arguments->output);
+  enum result result = output_check(&arguments->output, 1, &arguments->image, 1, error);
+  if (result != RESULT_OK) return result;
   return slab_file_check_target(arguments->output, arguments->precision, error);
 }
 
@@ -188,7 +160,8 @@ static void set_name(struct slab *slab, const char *output) {
     snprintf(slab->name, sizeof slab->name, "projector");
 }
 
-static enum result run(const struct arguments *arguments, struct error *error) {
+static enum result run(void *input, struct error *error) {
+  const struct arguments *arguments = input;
   struct picture image = {0};
   struct slab slab = {0};
   struct error why = {{0}};
@@ -215,7 +188,5 @@ int cmd_projector(int argc, char **argv) {
       NULL,    NULL};
   struct arguments arguments = {
       .projector = {.uv = {8, 8}, .metres_per_unit = 1, .unit = "relative"}};
-  struct error error = {{0}};
-  cli_parse(&argp, argc, argv, &arguments);
-  return cli_end(run(&arguments, &error), &error);
+  return cli_run(&argp, argc, argv, run, &arguments);
 }

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 #include "cli/cli.h"
+#include "cli/values.h"
 #include "file/slab_file.h"
 
 int cmd_bake(int argc, char **argv);
@@ -18,15 +19,9 @@ int cmd_info(int argc, char **argv);
 int cmd_lookup(int argc, char **argv);
 int cmd_projector(int argc, char **argv);
 
-/* "logluv", "float" or "half", and back. */
-bool cli_parse_precision(const char *text, enum slab_precision *precision);
+/* The names of precisions, in their order, for an option's words (values.h). */
+#define CLI_PRECISIONS "logluv|float|half"
 const char *cli_precision_name(enum slab_precision precision);
-
-/* For argp: what an option's argument says. They complain of numbers that are not positive and
- * finite, and of numbers of samples that are no NxM. */
-void cli_parse_samples(struct argp_state *state, const char *option, const char *text,
-                       int samples[2]);
-double cli_parse_positive(struct argp_state *state, const char *option, const char *text);
 
 /* For argp: takes exactly one argument, a slab, into *path, and complains about none or
  * more. Call it for keys that are no option of the command. */

@@ -83,7 +83,7 @@ setup() {
   misused '--lights and --tolerance: give one of them' --mode cluster --lights 4 --tolerance 0.1
   misused '--lights: the far field is one light' --mode point --lights 4
   misused '--tolerance -1: must be a positive number' --tolerance -1
-  misused '--distance nan: must be a positive number' --distance nan
-  misused '--distance 1e-200: must be from 0.01 to 1e+06 aperture widths' --mode point --distance 1e-200
-  misused '--distance 1e300: must be from 0.01 to 1e+06 aperture widths' --mode cluster --distance 1e300
+  misused '--distance nan: must be a number from 0.01 to 1e+06' --distance nan
+  misused '--distance 1e-200: must be a number from 0.01 to 1e+06' --mode point --distance 1e-200
+  misused '--distance 1e300: must be a number from 0.01 to 1e+06' --mode cluster --distance 1e300
 }

@@ -86,7 +86,7 @@ declines() {
 @test "outputs that cannot be" {
   declines 1 "s.png: the name must end in .tif, .tiff or .exr" -- four.ppm -o s.png "${where[@]}"
   oiiotool four.ppm -d half -o four.exr
-  declines 1 "./four.exr: is the image" -- four.exr -o ./four.exr "${where[@]}"
+  declines 1 "./four.exr: is read too" -- four.exr -o ./four.exr "${where[@]}"
   declines 1 "samples" -- four.ppm -o s.tif "${where[@]}" --uv 65536 --st 65536
   declines 1 "is not finite" -- four.ppm -o s.exr "${where[@]}" --white 1e39
   declines 1 "use --precision float" -- four.ppm -o s.tif "${where[@]}" --white 1e30
