@@ -9,7 +9,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/numbers.h"
 #include "base/version.h"
 #include "cli/arguments.h"
 
@@ -59,10 +58,6 @@ void cli_out_of_memory(void) {
 
 bool cli_quiet(void) {
   return quiet;
-}
-
-bool cli_parse_size(const char *text, int size[2]) {
-  return numbers_size(text, size);
 }
 
 /* ---- The recorded command line ---- */

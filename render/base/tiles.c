@@ -1,4 +1,4 @@
-/* tiles.c - see tiles.h. POSIX threads: the thread sanitizer does not know C11's. */
+/* tiles.c - POSIX threads: the thread sanitizer does not know C11's. */
 #include "base/tiles.h"
 
 #include <pthread.h>
@@ -64,7 +64,7 @@ enum result tiles_run(int threads, int count, tiles_work *work, tiles_progress *
   if (count == 0) return RESULT_OK;
   if (threads > count) threads = count;
   struct worker *workers = calloc((size_t)threads, sizeof *workers);
-  if (!workers) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!workers) return result_no_memory(error);
   struct tiles tiles = {
       .count = count, .work = work, .progress = progress, .context = context, .failed_tile = -1};
   pthread_mutex_init(&tiles.lock, NULL);

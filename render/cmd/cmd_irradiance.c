@@ -5,12 +5,10 @@
 #include "base/tiles.h"
 #include "cli/cli.h"
 #include "cmd/commands.h"
-#include "cmd/options.h"
-#include "cmd/outputs.h"
 #include "cmd/receiver_text.h"
 #include "cmd/stats.h"
+#include "cmd/world.h"
 #include "gl/gl_gather.h"
-#include "scene/scene.h"
 #include "shadow/occlusion.h"
 
 enum { OPTION_MESH = 256 };
@@ -36,8 +34,9 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     argp_error(state, "%s: receivers come from stdin, lights by --light", value);
     return 0;
   case ARGP_KEY_SUCCESS:
-    if (arguments->options.method == GATHER_CLOSED && arguments->mesh)
-      argp_error(state, "--method closed: cannot be used with --mesh; use reference");
+    if (gather_methods[arguments->options.method].matte_only && arguments->mesh)
+      argp_error(state, "--method %s: cannot be used with --mesh; use reference",
+                 gather_methods[arguments->options.method].name);
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;
@@ -46,8 +45,8 @@ static error_t parse(int key, char *value, struct argp_state *state) {
 
 /* What the threads share. */
 struct work {
+  struct world *world;
   struct gather_settings settings;
-  struct gather_prepared aids;
   struct gather **gather; /* [threads] */
   struct gl_gather *gl;   /* method gl, in place of `gather` */
   int threads;
@@ -72,9 +71,11 @@ static enum result work_tile(void *context, int tile, int worker, struct error *
 static enum result prepare_for_many(struct work *work, struct error *error) {
   const struct gather_settings *settings = &work->settings;
   uint64_t many = work->receivers.index;
-  if (settings->method != GATHER_AUTO || work->aids.trees || many < GATHER_MANY) return RESULT_OK;
+  if (gather_methods[settings->method].makes != METHOD_TREES_FOR_MANY ||
+      settings->prepared->trees || many < GATHER_MANY)
+    return RESULT_OK;
   return gather_prepare(settings->lights, settings->light_count, settings->method, many,
-                        work->threads, &work->aids, error);
+                        work->threads, &work->world->prepared, error);
 }
 
 static enum result answer(struct work *work, struct error *error) {
@@ -95,24 +96,23 @@ static enum result answer(struct work *work, struct error *error) {
   return result;
 }
 
-/* `gl`: settings of the method gl, NULL for others. */
-static enum result prepare(struct work *work, const struct gl_sum_settings *gl,
-                           struct error *error) {
+static enum result prepare(const struct options *options, struct work *work, struct error *error) {
+  struct world *world = work->world;
+  enum result result = gather_prepare(world->lights, world->light_count, options->method, 0,
+                                      options->threads, &world->prepared, error);
+  if (result != RESULT_OK) return result;
+  work->settings = world_gather(world, options, true);
   work->gather = calloc((size_t)work->threads, sizeof *work->gather);
   work->gathered = calloc(BLOCK, sizeof *work->gathered);
-  if (!work->gather || !work->gathered) return result_fail(error, RESULT_MEMORY, "out of memory");
-  enum result result = RESULT_OK;
-  if (gl) return gl_gather_create(gl, &work->gl, error);
-  for (int k = 0; k < work->threads && result == RESULT_OK; ++k)
-    result = gather_create(&work->settings, &work->gather[k], error);
-  return result;
+  if (!work->gather || !work->gathered) return result_no_memory(error);
+  const struct gl_sum_settings gl = world_gl(world, options, world->occlusion != NULL);
+  if (gather_methods[options->method].sum == METHOD_OPENGL)
+    return gl_gather_create(&gl, &work->gl, error);
+  return gather_create_all(&work->settings, work->threads, work->gather, error);
 }
 
 static void finish(struct work *work, struct stats *stats) {
-  for (int k = 0; work->gather && k < work->threads; ++k) {
-    if (work->gather[k]) gather_counts_add(&stats->counts, gather_counts(work->gather[k]));
-    gather_free(work->gather[k]);
-  }
+  if (work->gather) gather_free_all(work->gather, work->threads, &stats->counts);
   if (work->gl) gather_counts_add(&stats->counts, gl_gather_counts(work->gl));
   gl_gather_free(work->gl);
   free(work->gather);
@@ -120,72 +120,49 @@ static void finish(struct work *work, struct stats *stats) {
   receiver_text_free(&work->receivers);
 }
 
-static enum result run(const struct arguments *arguments, struct stats *stats,
-                       struct error *error) {
+static enum result run(void *input, struct error *error) {
+  struct arguments *arguments = input;
   const struct options *options = &arguments->options;
-  struct light *lights = NULL;
-  struct scene scene = {0};
-  struct occlusion *occlusion = NULL;
-  struct work work = {.threads = options->threads};
-  char note[256] = "";
-  stats_phase(stats, "load");
-  enum result result = outputs_check(&options->stats, 1, &arguments->mesh, 1, error);
-  if (result == RESULT_OK) result = options_load_lights(options, &lights, error);
-  if (result == RESULT_OK && arguments->mesh) {
-    result = scene_load(arguments->mesh, SCENE_SHAPE, options->repair, &scene, note, error);
-    if (result == RESULT_OK) result = occlusion_create(&scene, &occlusion, error);
-  }
+  const char *mesh = arguments->mesh;
+  struct world world = {0};
+  struct work work = {.world = &world, .threads = options->threads};
+  struct stats stats = stats_start(options);
+  enum result result = world_load_lights(&world, options, mesh, &options->stats, 1, error);
+  if (result == RESULT_OK && mesh)
+    result = world_load_scene(&world, options, mesh, SCENE_SHAPE, error);
+  if (result == RESULT_OK && mesh) result = occlusion_create(&world.scene, &world.occlusion, error);
   if (result == RESULT_OK) {
-    if (*note) cli_note("note: %s", note);
-    stats_effect(stats, "shadows", occlusion != NULL, occlusion ? "%zu triangles" : "no --mesh",
-                 scene.triangles);
-    work.settings = options_settings(options, lights, &work.aids, occlusion);
-    stats_phase(stats, "prepare");
-    result = gather_prepare(lights, options->light_count, options->method, 0, options->threads,
-                            &work.aids, error);
-    struct gl_sum_settings gl =
-        options_gl_settings(options, lights, &work.aids, arguments->mesh ? &scene : NULL);
-    if (result == RESULT_OK)
-      result = prepare(&work, options->method == GATHER_GL ? &gl : NULL, error);
-    stats_phase(stats, "gather");
+    stats_effect(&stats, "shadows", mesh != NULL, mesh ? "%zu triangles" : "no --mesh",
+                 world.scene.triangles);
+    stats_phase(&stats, "prepare");
+    result = prepare(options, &work, error);
+    stats_phase(&stats, "gather");
   }
   if (result == RESULT_OK) result = answer(&work, error);
-  finish(&work, stats);
-  if (result == RESULT_OK && options->stats)
-    result = stats_write(stats, lights, options->light_count, options->stats, error);
-  gather_prepared_free(&work.aids);
-  occlusion_free(occlusion);
-  scene_free(&scene);
-  options_free_lights(lights, options->light_count);
+  finish(&work, &stats);
+  if (result == RESULT_OK)
+    result = stats_write(&stats, world.lights, world.light_count, options->stats, error);
+  world_free(&world);
+  options_free(&arguments->options);
   return result;
 }
 
+static const struct argp_option options_list[] = {
+    {"mesh", OPTION_MESH, "FILE", 0, "A mesh (OBJ, glTF, PLY) that casts shadows", 0}, {0}};
+
+static const char help_text[] =
+    "Reads receivers `px py pz nx ny nz` (position and normal, scene space) from standard input, "
+    "one a line, and prints the irradiance `er eg eb` of each from all lights. Empty lines and "
+    "lines that start with # are skipped. A receiver in the uv plane has the limit of those in "
+    "front of it; one behind it gets no light."
+    "\vExamples:\n"
+    "  echo 0 0 0  0 1 0 | renderslab irradiance --light 'lamp.tif at=0,2,0'\n"
+    "  renderslab irradiance --light lamp.tif --method reference < receivers.txt";
+
 int cmd_irradiance(int argc, char **argv) {
-  static const struct argp_option option[] = {
-      {"mesh", OPTION_MESH, "FILE", 0, "A mesh (OBJ, glTF, PLY) that casts shadows", 0}, {0}};
-  const struct argp_child children[] = {{&options_argp, 0, NULL, 0}, cli_options[0], {0}};
-  const struct argp argp = {
-      .options = option,
-      .parser = parse,
-      .children = children,
-      .doc = "Reads receivers `px py pz nx ny nz` (position and normal, scene space) from standard "
-             "input, one a line, and prints the irradiance `er eg eb` of each from all lights. "
-             "Empty lines and lines that start with # are skipped. A receiver in the uv plane has "
-             "the limit of those in front of it; one behind it gets no light."
-             "\vExamples:\n"
-             "  echo 0 0 0  0 1 0 | renderslab irradiance --light 'lamp.tif at=0,2,0'\n"
-             "  renderslab irradiance --light lamp.tif --method reference < receivers.txt"};
+  static const struct argp_child children[] = {
+      {&options_argp, 0, NULL, 0}, {&cli_argp, 0, NULL, 0}, {0}};
+  static const struct argp argp = {options_list, parse, NULL, help_text, children, NULL, NULL};
   struct arguments arguments = {0};
-  struct stats stats = {0};
-  struct error error = {{0}};
-  cli_parse(&argp, argc, argv, &arguments);
-  const struct options *options = &arguments.options;
-  stats.command = cli_command_line();
-  stats.method = gather_method_name(options->method);
-  stats.tolerance = options->tolerance;
-  stats.threads = options->threads;
-  enum result result = run(&arguments, &stats, &error);
-  options_free(&arguments.options);
-  int status = result == RESULT_OK ? CLI_OK : cli_fail(&error);
-  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+  return cli_run(&argp, argc, argv, run, &arguments);
 }

@@ -1,12 +1,8 @@
 /* cmd_pov.c - renderslab pov: the same view as a POV-Ray scene. */
-#include <stdlib.h>
-#include <string.h>
-
+#include "base/output.h"
 #include "cli/cli.h"
 #include "cmd/commands.h"
-#include "cmd/options.h"
-#include "cmd/outputs.h"
-#include "cmd/picture_options.h"
+#include "cmd/world.h"
 #include "pov/pov.h"
 
 struct arguments {
@@ -33,48 +29,35 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   }
 }
 
-/* The scene must not take the place of what it reads. */
-static enum result check(const struct arguments *arguments, const struct light *lights,
-                         const struct pov_includes *includes, struct error *error) {
-  enum result result = outputs_check(&arguments->output, 1, &arguments->view.mesh, 1, error);
+/* The scene must not take the place of the includes that it reads. */
+static enum result find_includes(const struct arguments *arguments, const struct world *world,
+                                 struct pov_includes *includes, struct error *error) {
+  enum result result = pov_includes_find(world->lights, world->light_count, includes, error);
   for (int k = 0; k < includes->count && result == RESULT_OK; ++k) {
-    const struct pov_include *include = &includes->list[k];
-    const char *inputs[] = {lights[include->light].path, include->path, include->image};
-    result = outputs_check(&arguments->output, 1, inputs, 3, error);
+    const char *inputs[] = {includes->list[k].path, includes->list[k].image};
+    result = output_check(&arguments->output, 1, inputs, 2, error);
   }
   return result;
 }
 
-static enum result run(const struct arguments *arguments, struct error *error) {
+static enum result run(void *input, struct error *error) {
+  struct arguments *arguments = input;
   const struct options *options = &arguments->options;
-  const struct picture_options *view = &arguments->view;
-  struct light *lights = NULL;
-  struct scene scene = {0};
+  const char *mesh = arguments->view.mesh;
+  struct world world = {0};
   struct pov_includes includes = {0};
   char note[256] = "";
-  enum result result = options_load_lights(options, &lights, error);
-  if (result == RESULT_OK)
-    result = pov_includes_find(lights, options->light_count, &includes, error);
-  if (result == RESULT_OK) result = check(arguments, lights, &includes, error);
-  if (result == RESULT_OK)
-    result = scene_load(view->mesh, SCENE_SURFACES, options->repair, &scene, note, error);
-  if (result == RESULT_OK && *note) cli_note("%s: note: %s", view->mesh, note);
+  enum result result = world_load_lights(&world, options, mesh, &arguments->output, 1, error);
+  if (result == RESULT_OK) result = find_includes(arguments, &world, &includes, error);
+  if (result == RESULT_OK) result = world_load_scene(&world, options, mesh, SCENE_SURFACES, error);
   if (result == RESULT_OK) {
-    struct pov_view scene_view = {.scene = &scene,
-                                  .lights = lights,
-                                  .light_count = options->light_count,
-                                  .includes = &includes,
-                                  .camera = view->camera,
-                                  .width = view->size[0],
-                                  .height = view->size[1],
-                                  .command = cli_command_line()};
-    memcpy(scene_view.background, view->background, sizeof view->background);
-    result = pov_write(arguments->output, &scene_view, note, error);
+    const struct shade shade = world_shade(&world, &arguments->view);
+    result = pov_write(arguments->output, &shade, &includes, cli_command_line(), note, error);
     if (result == RESULT_OK && *note) cli_note("%s: note: %s", arguments->output, note);
   }
   pov_includes_free(&includes);
-  scene_free(&scene);
-  options_free_lights(lights, options->light_count);
+  world_free(&world);
+  options_free(&arguments->options);
   return result;
 }
 
@@ -91,17 +74,8 @@ static const char help_text[] =
     "at=0,1,0' -o room.pov";
 
 int cmd_pov(int argc, char **argv) {
-  const struct argp_child children[] = {
-      {&options_lights_argp, 0, NULL, 0}, {&picture_options_argp, 0, NULL, 0}, cli_options[0], {0}};
-  const struct argp argp = {.options = options_list,
-                            .parser = parse,
-                            .children = children,
-                            .args_doc = "MESH",
-                            .doc = help_text};
+  static const struct argp argp = {options_list, parse, "MESH", help_text, picture_options_children,
+                                   NULL,         NULL};
   struct arguments arguments = {0};
-  struct error error = {{0}};
-  cli_parse(&argp, argc, argv, &arguments);
-  int status = run(&arguments, &error) == RESULT_OK ? CLI_OK : cli_fail(&error);
-  options_free(&arguments.options);
-  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+  return cli_run(&argp, argc, argv, run, &arguments);
 }

@@ -1,12 +1,10 @@
 /* cmd_view.c - renderslab view: a mesh scene that light slabs light, in a window. */
-#include <math.h>
 #include <string.h>
 
 #include "base/tiles.h"
 #include "cli/cli.h"
 #include "cmd/commands.h"
-#include "cmd/options.h"
-#include "cmd/picture_options.h"
+#include "cmd/world.h"
 #include "viewer/viewer_camera.h"
 #include "viewer/viewer_loop.h"
 
@@ -49,42 +47,39 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   }
 }
 
-static enum result load(const struct arguments *arguments, struct light **lights,
-                        struct gather_prepared *aids, struct scene *scene, struct error *error) {
+static enum result load(const struct arguments *arguments, struct world *world,
+                        struct error *error) {
   const struct options *options = &arguments->options;
-  char note[256] = "";
-  enum result result = options_load_lights(options, lights, error);
+  const char *mesh = arguments->view.mesh;
+  enum result result = world_load_lights(world, options, mesh, NULL, 0, error);
   if (result == RESULT_OK)
-    result = gather_prepare(*lights, options->light_count, GATHER_GL, 0, 1, aids, error);
-  if (result == RESULT_OK)
-    result = scene_load(arguments->view.mesh, SCENE_SURFACES, options->repair, scene, note, error);
-  if (result == RESULT_OK && *note) cli_note("%s: note: %s", arguments->view.mesh, note);
-  return result;
+    result =
+        gather_prepare(world->lights, world->light_count, GATHER_GL, 0, 1, &world->prepared, error);
+  return result == RESULT_OK ? world_load_scene(world, options, mesh, SCENE_SURFACES, error)
+                             : result;
 }
 
-static enum result run(const struct arguments *arguments, struct error *error) {
+static enum result run(void *input, struct error *error) {
+  struct arguments *arguments = input;
   const struct options *options = &arguments->options;
   const struct picture_options *view = &arguments->view;
-  struct light *lights = NULL;
-  struct gather_prepared aids = {0};
-  struct scene scene = {0};
-  enum result result = load(arguments, &lights, &aids, &scene, error);
+  struct world world = {0};
+  enum result result = load(arguments, &world, error);
   if (result == RESULT_OK) {
-    struct viewer_world world = {.scene = &scene,
-                                 .lights = lights,
-                                 .light_count = options->light_count,
-                                 .aids = &aids,
+    struct viewer_world shown = {.scene = &world.scene,
+                                 .lights = world.lights,
+                                 .light_count = world.light_count,
+                                 .prepared = &world.prepared,
                                  .map_size = MAP_SIZE,
                                  .threads = tiles_processors()};
     const struct viewer_arguments what = {
-        .mesh = view->mesh, .repair = options->repair, .lights = options->lights, .world = &world};
-    struct camera camera = view->camera_given ? view->camera : viewer_camera_outside(&scene);
-    memcpy(world.background, view->background, sizeof world.background);
+        .mesh = view->mesh, .repair = options->repair, .lights = options->lights, .world = &shown};
+    struct camera camera = view->camera_given ? view->camera : viewer_camera_outside(&world.scene);
+    memcpy(shown.background, view->background, sizeof shown.background);
     result = viewer_loop_run(&what, &camera, view->size[0], view->size[1], arguments->keys, error);
   }
-  scene_free(&scene);
-  gather_prepared_free(&aids);
-  options_free_lights(lights, options->light_count);
+  world_free(&world);
+  options_free(&arguments->options);
   return result;
 }
 
@@ -109,17 +104,8 @@ static const char help_text[] =
     "  renderslab view room.obj --light lamp.tif --camera 'from=0,1,-3 at=0,1,0' --keys 's q'";
 
 int cmd_view(int argc, char **argv) {
-  const struct argp_child children[] = {
-      {&options_lights_argp, 0, NULL, 0}, {&picture_options_argp, 0, NULL, 0}, cli_options[0], {0}};
-  const struct argp argp = {.options = options_list,
-                            .parser = parse,
-                            .children = children,
-                            .args_doc = "MESH",
-                            .doc = help_text};
+  static const struct argp argp = {options_list, parse, "MESH", help_text, picture_options_children,
+                                   NULL,         NULL};
   struct arguments arguments = {.view = {.camera_optional = true}};
-  struct error error = {{0}};
-  cli_parse(&argp, argc, argv, &arguments);
-  int status = run(&arguments, &error) == RESULT_OK ? CLI_OK : cli_fail(&error);
-  options_free(&arguments.options);
-  return cli_close_stdout() == CLI_OK ? status : CLI_FAILED;
+  return cli_run(&argp, argc, argv, run, &arguments);
 }

@@ -1,4 +1,3 @@
-/* receiver_text.c - see receiver_text.h. */
 #include "cmd/receiver_text.h"
 
 #include <errno.h>
@@ -6,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/key_values.h"
+#include "base/numbers.h"
 #include "base/vector.h"
 
 void receiver_text_free(struct receivers *receivers) {
@@ -15,18 +14,11 @@ void receiver_text_free(struct receivers *receivers) {
   *receivers = (struct receivers){0};
 }
 
-/* Six numbers and nothing else. */
-static bool parse(const char *line, double numbers[6]) {
-  const char *at = line;
-  for (int k = 0; k < 6; ++k, at += strspn(at, WORDS_BLANKS))
-    if (!key_values_number_at(at, &at, &numbers[k])) return false;
-  return !*at;
-}
-
 static enum result add(struct receivers *receivers, const char *line, struct error *error) {
   double numbers[6];
   unsigned long long number = receivers->line;
-  if (!parse(line, numbers))
+  const char *end = numbers_read(line, ' ', 6, numbers);
+  if (!end || end[strspn(end, NUMBERS_BLANKS)])
     return result_fail(
         error, RESULT_BAD,
         "stdin: line %llu: is not a receiver `px py pz nx ny nz` of six finite numbers", number);
@@ -59,11 +51,11 @@ static int compare(const void *left, const void *right) {
   return (a->index > b->index) - (a->index < b->index);
 }
 
-/* Along a Z curve through the box of all receivers. */
+/* Orders the receivers along a Z curve through their box. */
 static enum result sort(struct receivers *receivers, struct error *error) {
   double low[3], high[3];
   struct place *places = malloc(((size_t)receivers->count + 1) * sizeof *places);
-  if (!places) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!places) return result_no_memory(error);
   for (int c = 0; c < 3; ++c) {
     low[c] = INFINITY;
     high[c] = -INFINITY;
@@ -91,8 +83,7 @@ enum result receiver_text_read(FILE *in, int most, struct receivers *receivers,
   if (receivers->room < most) {
     receivers->receiver = calloc((size_t)most, sizeof *receivers->receiver);
     receivers->order = calloc((size_t)most, sizeof *receivers->order);
-    if (!receivers->receiver || !receivers->order)
-      return result_fail(error, RESULT_MEMORY, "out of memory");
+    if (!receivers->receiver || !receivers->order) return result_no_memory(error);
     receivers->room = most;
   }
   enum result result = RESULT_OK;
@@ -105,7 +96,7 @@ enum result receiver_text_read(FILE *in, int most, struct receivers *receivers,
       break;
     }
     ++receivers->line;
-    const char *start = line + strspn(line, WORDS_BLANKS);
+    const char *start = line + strspn(line, NUMBERS_BLANKS);
     if (*start && *start != '#') result = add(receivers, start, error);
   }
   free(line);

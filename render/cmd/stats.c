@@ -1,7 +1,5 @@
-/* stats.c - see stats.h. */
 #include "cmd/stats.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,8 +8,18 @@
 
 #include "base/output.h"
 #include "base/progress.h"
+#include "cli/cli.h"
 #include "file/json_text.h"
 #include "file/slab_json.h"
+
+struct stats stats_start(const struct options *options) {
+  struct stats stats = {.command = cli_command_line(),
+                        .method = gather_methods[options->method].name,
+                        .tolerance = options->tolerance,
+                        .threads = options->threads};
+  stats_phase(&stats, "load");
+  return stats;
+}
 
 void stats_phase(struct stats *stats, const char *name) {
   double time = progress_now();
@@ -104,23 +112,19 @@ static enum result set_accuracy(json_t *object, const struct light *lights, int 
 
 enum result stats_write(struct stats *stats, const struct light *lights, int count,
                         const char *path, struct error *error) {
+  if (!path) return RESULT_OK;
   stats_phase(stats, NULL);
-  struct output output = {0};
   unsigned long mark = json_mark();
   json_t *object = object_of(stats);
   enum result result = set_accuracy(object, lights, count, error);
   char *text = NULL;
   if (result == RESULT_OK)
     result = json_text(object, mark, JSON_INDENT(2) | JSON_REAL_PRECISION(6), &text, error);
-  size_t length = text ? strlen(text) : 0;
   if (result == RESULT_OK) {
+    size_t length = strlen(text);
     text[length] = '\n'; /* in place of the final zero */
-    result = output_begin(&output, path, error);
+    result = output_text(path, text, length + 1, error);
   }
-  if (result == RESULT_OK && output_write(&output, text, length + 1, 0) != 0)
-    result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
-  if (result == RESULT_OK) result = output_commit(&output, error);
-  output_abandon(&output);
   free(text);
   json_decref(object);
   return result;

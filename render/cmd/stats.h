@@ -14,7 +14,9 @@
 
 #include <stdbool.h>
 
-#include "gather/gather.h"
+#include "cmd/options.h"
+#include "light/light.h"
+#include "microlight/receiver.h"
 
 enum { STATS_PHASES = 8, STATS_EFFECTS = 8 };
 
@@ -39,6 +41,9 @@ struct stats {
   } effects[STATS_EFFECTS];
 };
 
+/* Those of the command that is running, in its phase "load". */
+struct stats stats_start(const struct options *options);
+
 /* Ends the phase that goes on, if any, and starts the next; NULL starts none. What comes after
  * STATS_PHASES is added to the last. */
 void stats_phase(struct stats *stats, const char *name);
@@ -47,8 +52,8 @@ void stats_phase(struct stats *stats, const char *name);
 void stats_effect(struct stats *stats, const char *name, bool simulated, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Writes the object, whole or not at all; "-" is stdout. Ends the phase that goes on. Estimates
- * the slabs' own errors, which takes a moment. */
+/* Writes the object, whole or not at all; "-" is stdout, and NULL leaves it at that. Ends the phase
+ * that goes on. Estimates the slabs' own errors, which takes a moment. */
 enum result stats_write(struct stats *stats, const struct light *lights, int count,
                         const char *path, struct error *error);
 

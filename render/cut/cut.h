@@ -1,5 +1,5 @@
 /* cut.h - method `cut`: the light of a page as a sum over blocks of views, few where that is
- * exact enough (numerics: section 5).
+ * exact enough. The algorithm is told in cut.c.
  *
  * For a receiver at height z the ray through the point a of the aperture has the st coordinate
  * s = s0 - w (a - a0), w = 1/z - kappa, s0 that of the ray through a0. A node of the tree
@@ -7,22 +7,11 @@
  * (cut_axis.h) and the kernel, expanded to second order about the node's center, is integrated
  * exactly: single views, the leaves, err by the kernel's higher orders alone.
  *
- * The cut starts with the root, or with the first level whose nodes are seen as at most 8 st
- * samples wide, and splits the node with the largest estimated error until the estimate of the
- * sum is within the tolerance. Estimates: what was measured when the tree was built, for the
- * node's view of st; what the kernel's expansion leaves out.
- *
- * Where that takes more than all views at once (cut_views.h), and these are exact enough, they are
- * summed instead: so it is near the aperture. The micro lights do it, and cut_sum returns false,
- * for glossy receivers, where the tangent plane cuts the aperture, and at the aperture, where
- * neither is exact enough or any faster. Finding that out costs a few percent of the micro lights.
- * All of them keep the tolerance, so nothing is seen where one hands over to another.
- *
  * The error of a page's light: the largest of the channels' absolute errors, relative to the
  * largest channel, or to 1e-4 of the most that the page can send to the receiver's height, if that
- * is more, or to `floor`. That most is (largest radiance summed over the aperture)/z^2, or pi times
- * its mean over the aperture, if that is less. Tolerances below 1e-6 are beyond single precision:
- * the micro lights do it. Slabs that are nowhere negative give no negative light. */
+ * is more. That most is (largest radiance summed over the aperture)/z^2, or pi times its mean over
+ * the aperture, if that is less. Tolerances below 1e-6 are beyond single precision: the micro
+ * lights do it. Slabs that are nowhere negative give no negative light. */
 #ifndef CUT_H
 #define CUT_H
 
@@ -33,37 +22,30 @@
 
 struct cut_tree; /* keeps a pointer to the page's samples */
 
-/* Builds the tree of a page: the same bits whatever the threads. Nearly all of the time goes into
- * measuring errors: 0.6 s of CPU for 16 x 16 x 64 x 64 samples, 2.5 s for 32 x 32 x 64 x 64, what
- * 100,000 receivers' micro lights take. Loading such slabs takes 0.06 s and 0.2 s, so a file
- * beside the slab would pay for small pictures; there is none yet. */
+/* Builds the tree of a page: the same bits whatever the threads. It takes 64 bytes of memory per
+ * st sample and node; with a third as many nodes as views, about 1.78 times the slab's. Nearly all
+ * of the time goes into measuring errors: 0.6 s of CPU for 16 x 16 x 64 x 64 samples, 2.5 s for 32
+ * x 32 x 64 x 64, what 100,000 receivers' micro lights take. Loading such slabs takes 0.06 s and
+ * 0.2 s, so a file beside the slab would pay for small pictures; there is none yet. */
 enum result cut_build(const struct light_page *page, int threads, struct cut_tree **made,
                       struct error *error);
 void cut_free(struct cut_tree *tree); /* NULL allowed */
 
-/* Memory that the tree takes, in bytes: per st sample and node 64, with a third as many nodes as
- * views: about 1.78 times the slab's samples. */
-double cut_bytes(const struct cut_tree *tree);
-
 struct cut_counts {
-  uint64_t nodes;   /* summed */
-  uint64_t visited; /* looked at */
-  uint64_t views;   /* summed all at once, see cut_views.h: their nodes */
-  double error;     /* predicted, of the last sum */
-  bool no_memory;   /* for a sum, which was not done: that of the micro lights has other digits */
+  uint64_t nodes; /* summed */
+  uint64_t views; /* summed all at once (cut_views.h): the kernel's nodes */
+  double error;   /* predicted, relative, of the last sum */
+  bool no_memory; /* for a sum, which was not done: that of the micro lights has other digits */
 };
 
-/* Scratch memory of one thread. So many sums wait for each other. */
-enum { CUT_TOGETHER = 16 };
+/* Scratch memory of one thread. */
 struct cut_work;
 struct cut_work *cut_work_make(void);      /* NULL: no memory */
 void cut_work_free(struct cut_work *work); /* NULL allowed */
 
-/* The light of the page of the tree, for a receiver who sees all of it. False: not done, the micro
- * lights do it better. `floor` is an irradiance, or 0. Sums over all views at once wait for each
- * other: `irradiance` is written by cut_finish, at the latest. */
+/* The light of the tree's page, for a receiver who sees all of it. False: not done, the micro
+ * lights do it better. */
 bool cut_sum(const struct cut_tree *tree, const struct seen_page *seen, double tolerance,
-             double floor, struct cut_work *work, double irradiance[3], struct cut_counts *counts);
-void cut_finish(struct cut_work *work);
+             struct cut_work *work, double irradiance[3], struct cut_counts *counts);
 
 #endif

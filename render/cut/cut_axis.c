@@ -1,4 +1,3 @@
-/* cut_axis.c - see cut_axis.h. */
 #include "cut/cut_axis.h"
 
 #include <math.h>
@@ -34,10 +33,6 @@ static void add_piece(struct cut_interval *interval, double low, double high, do
   ++interval->pieces;
 }
 
-/* Gauss nodes and weights on [0, 1]: exact to the fifth power. */
-static const double gauss_at[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
-static const double gauss_weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-
 /* Integral of H d^power. */
 static double moment(const struct cut_interval *interval, int power) {
   double sum = 0;
@@ -45,8 +40,9 @@ static double moment(const struct cut_interval *interval, int power) {
     const struct cut_piece *piece = &interval->piece[k];
     double width = piece->high - piece->low;
     for (int g = 0; g < 3; ++g)
-      sum += gauss_weight[g] * width * (piece->from + gauss_at[g] * (piece->to - piece->from)) *
-             pow(piece->low + gauss_at[g] * width, power);
+      sum += cut_gauss_weight[g] * width *
+             (piece->from + cut_gauss_at[g] * (piece->to - piece->from)) *
+             pow(piece->low + cut_gauss_at[g] * width, power);
   }
   return sum;
 }
@@ -101,21 +97,13 @@ static void set_interval(const struct light_axis *axis, int first, int last,
   for (int k = 0; k < interval->pieces; ++k) set_hinge(interval, k);
 }
 
-static void split(const struct cut_interval *from, int to, int cuts[3], int *children) {
-  int count = from->last - from->first + 1;
-  *children = count > 1 ? 2 : 1;
-  cuts[0] = from->first;
-  cuts[1] = count > 1 ? from->first + (count + 1) / 2 : to;
-  cuts[2] = to;
-}
-
 enum result cut_axis_make(const struct light_axis *axis, int levels, struct cut_axis *made,
                           struct error *error) {
   *made = (struct cut_axis){0};
   for (int level = 0; level < levels; ++level) {
     int room = level == 0 ? 1 : 2 * made->count[level - 1];
     struct cut_interval *out = calloc((size_t)room, sizeof *out);
-    if (!out) return result_fail(error, RESULT_MEMORY, "out of memory");
+    if (!out) return result_no_memory(error);
     made->level[level] = out;
     if (level == 0) {
       set_interval(axis, 0, axis->near_count - 1, out);
@@ -123,11 +111,11 @@ enum result cut_axis_make(const struct light_axis *axis, int levels, struct cut_
     }
     for (int k = 0; level > 0 && k < made->count[level - 1]; ++k) {
       struct cut_interval *parent = &made->level[level - 1][k];
-      int cuts[3];
+      int views = parent->last - parent->first + 1, second = parent->first + (views + 1) / 2;
       parent->child = made->count[level];
-      split(parent, parent->last + 1, cuts, &parent->children);
-      for (int c = 0; c < parent->children; ++c)
-        set_interval(axis, cuts[c], cuts[c + 1] - 1, &out[made->count[level]++]);
+      parent->children = views > 1 ? 2 : 1;
+      set_interval(axis, parent->first, second - 1, &out[made->count[level]++]);
+      if (views > 1) set_interval(axis, second, parent->last, &out[made->count[level]++]);
     }
     for (int k = 0; k < made->count[level]; ++k)
       made->reach[level] = fmax(made->reach[level], out[k].half);
@@ -148,12 +136,12 @@ SIMD_INLINE int clamp(int value, int high) {
   return value < 0 ? 0 : value > high ? high : value;
 }
 
-/* floor, without a call; for what lies in the window: at >= -1 */
+/* floor without a call, for at >= -1: in the window. */
 SIMD_INLINE int whole(double at) {
   return (int)(at + 1) - 1;
 }
 
-/* Shortens a piece to what is seen of it within the st window. */
+/* Shortens a piece to what is seen of it within the st window; false: nothing. */
 static bool see(const struct cut_sight *sight, int far_count, struct cut_piece *range) {
   const struct cut_piece piece = *range;
   double rise = (piece.to - piece.from) / (piece.high - piece.low);
@@ -173,7 +161,7 @@ static bool see(const struct cut_sight *sight, int far_count, struct cut_piece *
   return high > low;
 }
 
-/* Sums being made; a row for each st sample. */
+/* taps->moment as it is summed, transposed. */
 struct sums {
   simd_float4 moment[CUT_TAPS];
 };
@@ -184,9 +172,10 @@ SIMD_INLINE void add_cell(const struct cut_interval *interval, const struct cut_
                           simd_float4 *upper) {
   const double width = part->high - part->low, unit = width * sight->scale;
   for (int g = 0; g < 3; ++g) {
-    double d = part->low + gauss_at[g] * width;
+    double d = part->low + cut_gauss_at[g] * width;
     double up = sight->place + sight->rate * d - cell;
-    double value = (part->from + gauss_at[g] * (part->to - part->from)) * gauss_weight[g] * unit;
+    double value =
+        (part->from + cut_gauss_at[g] * (part->to - part->from)) * cut_gauss_weight[g] * unit;
     float y = (float)(d * interval->per_half), share = (float)least(most(up, 0), 1);
     simd_float4 all = (float)value * (simd_float4){1, y, y * y, y * y * y};
     *lower += all * (1 - share);
@@ -236,7 +225,7 @@ SIMD_INLINE simd_float4 find_hinge(const struct cut_interval *interval, double c
 }
 
 /* An interval that is seen whole and over few st samples: as if radiance were linear in all of
- * it, as in the cell of the center, and bends at the samples by its second differences there. */
+ * it, as in the cell of the center, with kinks at the samples: its second differences there. */
 static void add_whole(const struct cut_interval *interval, const struct cut_sight *sight, int low,
                       int high, int first, int far_count, struct sums *sums) {
   const int center = whole(sight->place), last = far_count - 1;
@@ -251,10 +240,10 @@ static void add_whole(const struct cut_interval *interval, const struct cut_sigh
     const int side = line > center ? 1 : -1;
     const double crossing = (line - sight->place) / sight->rate;
     const bool above = (side > 0) == (slope > 0);
-    const simd_float4 bend = find_hinge(interval, crossing, above) * (speed * unit);
-    sums->moment[clamp(line - side, last) - first] += bend;
-    sums->moment[clamp(line, last) - first] -= bend + bend;
-    sums->moment[clamp(line + side, last) - first] += bend;
+    const simd_float4 kink = find_hinge(interval, crossing, above) * (speed * unit);
+    sums->moment[clamp(line - side, last) - first] += kink;
+    sums->moment[clamp(line, last) - first] -= kink + kink;
+    sums->moment[clamp(line + side, last) - first] += kink;
   }
 }
 
@@ -273,7 +262,7 @@ static void store(struct sums *sums, struct cut_taps *taps) {
   }
 }
 
-/* Where bends are cheaper than pieces: st samples inside the interval. */
+/* So many st samples inside an interval at most, and kinks are cheaper than pieces. */
 enum { FEW = 4 };
 
 bool cut_taps_find(const struct cut_interval *interval, const struct cut_sight *sight,

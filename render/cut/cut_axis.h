@@ -15,6 +15,10 @@
 
 enum { CUT_LEVELS = 16, CUT_TAPS = 16, CUT_MOMENTS = 4, CUT_HINGE = CUT_MOMENTS + 3 };
 
+/* Gauss nodes and weights on [0, 1]: exact to the fifth power. */
+static const double cut_gauss_at[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
+static const double cut_gauss_weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+
 /* A part of an interval on which H is linear: from `from` at `low` to `to` at `high`. */
 struct cut_piece {
   double low, high; /* distances from the interval's center */
@@ -36,7 +40,8 @@ struct cut_interval {
   float hinge[3][CUT_HINGE][CUT_MOMENTS];
 };
 
-/* Level 0 is one block, each further one halves all blocks of more than one view. */
+/* Level 0 is one block, each further one halves all blocks of more than one view: children of
+ * 2 n + 1 views have n + 1 and n. */
 struct cut_axis {
   int count[CUT_LEVELS];
   struct cut_interval *level[CUT_LEVELS]; /* owned */

@@ -18,38 +18,28 @@ void cut_free(struct cut_tree *tree) {
   free(tree);
 }
 
-double cut_bytes(const struct cut_tree *tree) {
-  return tree->bytes;
-}
-
 static enum result allocate(struct cut_tree *tree, struct error *error) {
-  tree->bytes = sizeof *tree;
-  for (int level = 0; level < tree->levels; ++level) {
-    double axis_bytes = sizeof(struct cut_interval);
-    tree->bytes += axis_bytes * (tree->axes[0].count[level] + tree->axes[1].count[level]);
-    if (level == tree->levels - 1) break;
+  for (int level = 0; level < tree->levels - 1; ++level) {
     size_t nodes = (size_t)tree->axes[0].count[level] * (size_t)tree->axes[1].count[level];
-    size_t texels = nodes * cut_texels(tree), floats = texels * CUT_FLOATS + CUT_PADDING;
+    size_t texels = nodes * cut_texels(tree);
     struct cut_level *made = &tree->level[level];
-    made->images = calloc(floats, sizeof *made->images);
+    made->images = calloc(texels * CUT_FLOATS + CUT_PADDING, sizeof *made->images);
     made->estimates = calloc(texels, sizeof *made->estimates);
-    if (!made->images || !made->estimates)
-      return result_fail(error, RESULT_MEMORY, "out of memory");
-    tree->bytes += (double)(floats * sizeof *made->images + texels * sizeof *made->estimates);
+    if (!made->images || !made->estimates) return result_no_memory(error);
   }
   return RESULT_OK;
 }
 
 /* ---- Images ---- */
 
-/* One child's share in a node: of its radiance in the node's mean and slope, along each axis, and
+/* One child's share in a node, along each axis: of its radiance in the node's mean and slope, and
  * of its own slope in the node's. */
 struct share {
   float mean[2], slope[2], own[2];
 };
 
-static struct share find_share(const struct cut_interval *const node[2],
-                               const struct cut_interval *const child[2]) {
+static struct share find_share(const struct cut_interval *node[2],
+                               const struct cut_interval *child[2]) {
   struct share share;
   for (int axis = 0; axis < 2; ++axis) {
     const struct cut_interval *n = node[axis], *c = child[axis];
@@ -76,13 +66,13 @@ static void add_node(const float *child, size_t texels, const struct share *shar
 }
 
 /* Adds a single view. */
-static void add_view(const struct light_page *page, const int at[2], const struct share *share,
+static void add_view(const struct cut_tree *tree, const int at[2], const struct share *share,
                      float *out) {
-  const struct seen_page seen = {.page = page};
-  for (int l = 0; l < page->axes[1].far_count; ++l) {
-    const float *from = page->slab.rgb + seen_page_offset(&seen, 1, at[1], l) +
-                        seen_page_offset(&seen, 0, at[0], 0);
-    for (int k = 0; k < page->axes[0].far_count; ++k, from += 3, out += CUT_FLOATS)
+  const size_t stride = 3 * (size_t)slab_width(&tree->page->slab);
+  const float *row = cut_view(tree, at);
+  for (int l = 0; l < tree->page->axes[1].far_count; ++l, row += stride) {
+    const float *from = row;
+    for (int k = 0; k < tree->page->axes[0].far_count; ++k, from += 3, out += CUT_FLOATS)
       for (int c = 0; c < 3; ++c) {
         float mean = share->mean[0] * from[c], slope = share->slope[0] * from[c];
         out[c] += share->mean[1] * mean;
@@ -106,21 +96,18 @@ static enum result make_images(void *context, int tile, int worker, struct error
   const struct cut_tree *tree = build->tree;
   int level = build->level, along = tree->axes[0].count[level];
   int at[2] = {tile % along, tile / along};
-  const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
-                                              &tree->axes[1].level[level][at[1]]};
-  size_t size = cut_texels(tree) * CUT_FLOATS;
-  float *out = tree->level[level].images + size * cut_node_number(tree, level, at);
+  const struct cut_interval *node[2], *child[2];
+  cut_intervals(tree, level, at, node);
+  float *out = cut_images(tree, level, at);
   for (int q = 0; q < node[1]->children; ++q)
     for (int p = 0; p < node[0]->children; ++p) {
       int from[2] = {node[0]->child + p, node[1]->child + q};
-      const struct cut_interval *const child[2] = {&tree->axes[0].level[level + 1][from[0]],
-                                                   &tree->axes[1].level[level + 1][from[1]]};
+      cut_intervals(tree, level + 1, from, child);
       struct share share = find_share(node, child);
       if (level + 1 == tree->levels - 1)
-        add_view(tree->page, from, &share, out);
+        add_view(tree, from, &share, out);
       else
-        add_node(tree->level[level + 1].images + size * cut_node_number(tree, level + 1, from),
-                 cut_texels(tree), &share, out);
+        add_node(cut_images(tree, level + 1, from), cut_texels(tree), &share, out);
     }
   return RESULT_OK;
 }
@@ -155,9 +142,8 @@ static void set_scale(struct cut_tree *tree) {
 /* The mean of M over cells. */
 static void make_means(struct cut_tree *tree, int level, const int at[2]) {
   int width = tree->page->axes[0].far_count, height = tree->page->axes[1].far_count;
-  size_t from = cut_texels(tree) * cut_node_number(tree, level, at);
-  const float *image = tree->level[level].images + from * CUT_FLOATS;
-  struct cut_estimate *out = tree->level[level].estimates + from;
+  const float *image = cut_images(tree, level, at);
+  struct cut_estimate *out = cut_estimates(tree, level, at);
   for (int l = 0; l < height; ++l)
     for (int k = 0; k < width; ++k, ++out) {
       size_t across = k + 1 < width, up = l + 1 < height ? (size_t)width : 0;
@@ -183,7 +169,7 @@ static enum result make_errors(void *context, int tile, int worker, struct error
   }
   struct cut_error_scratch **scratch = &build->scratch[worker];
   if (!*scratch) *scratch = cut_error_scratch(tree);
-  if (!*scratch) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!*scratch) return result_no_memory(error);
   int along = tree->axes[0].count[level];
   int at[2] = {tile % along, tile / along};
   make_means(tree, level, at);
@@ -214,7 +200,7 @@ static enum result build_tree(struct cut_tree *tree, int threads, struct error *
   if (result != RESULT_OK) return result;
   set_scale(tree);
   build.scratch = calloc((size_t)threads, sizeof *build.scratch);
-  if (!build.scratch) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!build.scratch) return result_no_memory(error);
   result = tiles_run(threads, nodes, make_errors, NULL, &build, error);
   for (int k = 0; k < threads; ++k) cut_error_scratch_free(build.scratch[k]);
   free(build.scratch);
@@ -237,7 +223,7 @@ static void set_page(struct cut_tree *tree, const struct light_page *page) {
 enum result cut_build(const struct light_page *page, int threads, struct cut_tree **made,
                       struct error *error) {
   struct cut_tree *tree = calloc(1, sizeof *tree);
-  if (!tree) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!tree) return result_no_memory(error);
   set_page(tree, page);
   enum result result = build_tree(tree, threads, error);
   if (result != RESULT_OK) {

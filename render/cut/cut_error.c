@@ -1,6 +1,6 @@
-/* cut_error.c - how far a node is from the sum of its views (cut_tree.h), for receivers in front
- * of each st sample. What a node or a view brings is a weighted sum over st samples, first along
- * s, then along t. */
+/* cut_error.c - how far the light of a node is from that of its views (cut_tree.h), for receivers
+ * in front of each st sample. Either is a weighted sum over st samples, first along s, then along
+ * t. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,54 +9,44 @@
 #include "cut/cut_tree.h"
 #include "microlight/seen_page.h"
 
-/* What the samples weigh for the receiver in front of one of them: hat functions, and hat
- * functions times X. */
+/* What the samples weigh for the receiver in front of one of them: integrals of the hat functions,
+ * and of these times x (cut_tree.h). */
 struct weights {
   int first, count;
   float weight[2][CUT_TAPS];
 };
 
-/* So few views' micro lights cost less than a node that is wide. */
-enum { FEW_VIEWS = 4, FEW_SPREADS = 4 };
-
 struct cut_error_scratch {
-  simd_float4 *off;      /* node - views, for each sample */
-  simd_float4 *along[2]; /* sums along s */
-  struct weights *of[2]; /* along s and t */
+  struct cut_lines *lines; /* owned */
+  simd_float4 *off;        /* node - views, for each sample */
+  simd_float4 *along[2];   /* sums along s */
+  struct weights *of[2];   /* along s and t */
   uint8_t *code;
-  uint8_t *line; /* of codes */
-  struct cut_lines *lines;
+  uint8_t *line;        /* of codes */
+  simd_float4 memory[]; /* of all but the first */
 };
 
 struct cut_error_scratch *cut_error_scratch(const struct cut_tree *tree) {
-  struct cut_error_scratch *made = calloc(1, sizeof *made);
-  size_t texels = cut_texels(tree);
+  const size_t texels = cut_texels(tree), width = (size_t)tree->page->axes[0].far_count;
+  const size_t height = (size_t)tree->page->axes[1].far_count;
+  struct cut_error_scratch *made =
+      calloc(1, sizeof *made + 3 * texels * sizeof(simd_float4) +
+                    (width + height) * sizeof(struct weights) + 2 * texels);
   if (!made) return NULL;
-  made->off = aligned_alloc(sizeof(simd_float4), texels * sizeof(simd_float4));
-  made->code = calloc(texels, 1);
-  made->line = malloc(texels);
-  made->lines = cut_lines_make(tree);
-  bool whole = made->off && made->code && made->line && made->lines;
-  for (int k = 0; k < 2; ++k) {
-    made->along[k] = aligned_alloc(sizeof(simd_float4), texels * sizeof(simd_float4));
-    made->of[k] = calloc((size_t)tree->page->axes[k].far_count, sizeof *made->of[k]);
-    whole = whole && made->along[k] && made->of[k];
-  }
-  if (whole) return made;
-  cut_error_scratch_free(made);
+  made->off = made->memory;
+  made->along[0] = made->off + texels;
+  made->along[1] = made->along[0] + texels;
+  made->of[0] = (struct weights *)(made->along[1] + texels);
+  made->of[1] = made->of[0] + width;
+  made->code = (uint8_t *)(made->of[1] + height);
+  made->line = made->code + texels;
+  if ((made->lines = cut_lines_make(tree))) return made;
+  free(made);
   return NULL;
 }
 
 void cut_error_scratch_free(struct cut_error_scratch *scratch) {
-  if (!scratch) return;
-  free(scratch->off);
-  free(scratch->code);
-  free(scratch->line);
-  cut_lines_free(scratch->lines);
-  for (int k = 0; k < 2; ++k) {
-    free(scratch->along[k]);
-    free(scratch->of[k]);
-  }
+  if (scratch) cut_lines_free(scratch->lines);
   free(scratch);
 }
 
@@ -140,14 +130,13 @@ static void add_columns(const simd_float4 *along, const struct weights *weights,
 static void find_off(const struct cut_tree *tree, int level, const int at[2], double w,
                      double offset, struct cut_error_scratch *scratch) {
   const struct light_axis *axes = tree->page->axes;
-  const struct seen_page seen = {.page = tree->page};
   const int width = axes[0].far_count, height = axes[1].far_count, leaves = tree->levels - 1;
-  const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
-                                              &tree->axes[1].level[level][at[1]]};
+  const size_t stride = 3 * (size_t)slab_width(&tree->page->slab);
+  const struct cut_interval *node[2];
+  cut_intervals(tree, level, at, node);
   const double rate[2] = {-w / axes[0].far_step, -w / axes[1].far_step};
   size_t texels = cut_texels(tree);
-  const float *image =
-      tree->level[level].images + CUT_FLOATS * texels * cut_node_number(tree, level, at);
+  const float *image = cut_images(tree, level, at);
   for (int k = 0; k < 2; ++k)
     find_weights(&axes[k], node[k], node[k], rate[k], offset, scratch->of[k]);
   for (int l = 0; l < height; ++l)
@@ -161,10 +150,9 @@ static void find_off(const struct cut_tree *tree, int level, const int at[2], do
     for (int i = node[0]->first; i <= node[0]->last; ++i) {
       find_weights(&axes[0], node[0], &tree->axes[0].level[leaves][i], rate[0], offset,
                    scratch->of[0]);
-      const float *from = tree->page->slab.rgb + seen_page_offset(&seen, 0, i, 0);
-      for (int l = 0; l < height; ++l)
-        add_row(from + seen_page_offset(&seen, 1, j, l), scratch->of[0], width,
-                scratch->along[0] + l * width);
+      const float *from = cut_view(tree, (int[2]){i, j});
+      for (int l = 0; l < height; ++l, from += stride)
+        add_row(from, scratch->of[0], width, scratch->along[0] + l * width);
     }
     find_weights(&axes[1], node[1], &tree->axes[1].level[leaves][j], rate[1], offset,
                  scratch->of[1]);
@@ -172,7 +160,8 @@ static void find_off(const struct cut_tree *tree, int level, const int at[2], do
   }
 }
 
-/* Codes are the exponent and 3 bits of the mantissa, rounded up; cut_scale_make. */
+/* The exponent and 3 bits of the mantissa, rounded up, relative to the largest sample: the inverse
+ * of the table that set_scale makes (cut_build.c). */
 static uint8_t encode(const struct cut_tree *tree, simd_float4 off) {
   simd_float4 size = simd_magnitude(off);
   float most = size[0] > size[1] ? size[0] : size[1];
@@ -234,11 +223,10 @@ static void spread_codes(const struct cut_tree *tree, struct cut_error_scratch *
 static void find_part(const struct cut_tree *tree, int level, const int at[2],
                       struct cut_error_scratch *scratch) {
   const struct light_axis *axes = tree->page->axes;
-  const struct seen_page seen = {.page = tree->page};
   const int width = axes[0].far_count, height = axes[1].far_count;
-  const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
-                                              &tree->axes[1].level[level][at[1]]};
-  const size_t texels = cut_texels(tree);
+  const size_t texels = cut_texels(tree), stride = 3 * (size_t)slab_width(&tree->page->slab);
+  const struct cut_interval *node[2];
+  cut_intervals(tree, level, at, node);
   for (size_t k = 0; k < texels; ++k) scratch->off[k] = (simd_float4){0};
   for (int j = node[1]->first; j <= node[1]->last; ++j)
     for (int i = node[0]->first; i <= node[0]->last; ++i) {
@@ -248,12 +236,10 @@ static void find_part(const struct cut_tree *tree, int level, const int at[2],
       const float y = (float)((v->center - node[1]->center) / node[1]->half);
       const float share =
           (float)(u->moment[0] * v->moment[0] / (node[0]->moment[0] * node[1]->moment[0]));
-      const float *from =
-          tree->level[level].images + CUT_FLOATS * texels * cut_node_number(tree, level, at);
+      const float *from = cut_images(tree, level, at), *view = cut_view(tree, (int[2]){i, j});
       simd_float4 *off = scratch->off;
-      for (int l = 0; l < height; ++l) {
-        const float *rgb = tree->page->slab.rgb + seen_page_offset(&seen, 1, j, l) +
-                           seen_page_offset(&seen, 0, i, 0);
+      for (int l = 0; l < height; ++l, view += stride) {
+        const float *rgb = view;
         for (int k = 0; k < width; ++k, from += CUT_FLOATS, rgb += 3, ++off) {
           simd_float4 d = SIMD_LOAD(simd_floats4, rgb) - SIMD_LOAD(simd_floats4, from) -
                           SIMD_LOAD(simd_floats4, from + 6) * x -
@@ -265,16 +251,12 @@ static void find_part(const struct cut_tree *tree, int level, const int at[2],
     }
 }
 
-/* Errors for views that are more than one st sample wide. */
-static void measure_wide(struct cut_tree *tree, int level, const int at[2], int spreads,
+/* Errors of a node that is seen more than one st sample wide. */
+static void measure_wide(struct cut_tree *tree, int level, const int at[2],
                          struct cut_error_scratch *scratch, struct cut_estimate *out) {
   const double widest = fmax(tree->axes[0].widest[level], tree->axes[1].widest[level]);
   for (int side = 0; side < (tree->page->axes[0].kappa > 0 ? 2 : 1); ++side)
     for (int spread = 0; spread < CUT_SPREADS; ++spread) {
-      if (spread >= spreads) {
-        for (size_t k = 0; k < cut_texels(tree); ++k) out[k].error[side][spread] = CUT_CODES - 1;
-        continue;
-      }
       const double width = cut_narrowest * exp2(spread), aside = fmin(width / 4, 0.5);
       for (int place = 0; place < (width < 2 ? 3 : 2); ++place) {
         find_off(tree, level, at, (side ? -width : width) / widest,
@@ -285,7 +267,7 @@ static void measure_wide(struct cut_tree *tree, int level, const int at[2], int 
     }
 }
 
-/* Errors for views that are no wider. */
+/* Errors of a node that is seen no wider. */
 static void measure_narrow(struct cut_tree *tree, int level, const int at[2],
                            struct cut_error_scratch *scratch, struct cut_estimate *out) {
   simd_float4 *second = scratch->along[0];
@@ -303,15 +285,8 @@ static void measure_narrow(struct cut_tree *tree, int level, const int at[2],
 
 void cut_error_measure(struct cut_tree *tree, int level, const int at[2],
                        struct cut_error_scratch *scratch) {
-  const size_t texels = cut_texels(tree);
-  struct cut_estimate *out =
-      tree->level[level].estimates + texels * cut_node_number(tree, level, at);
-  int views = 1;
-  for (int axis = 0; axis < 2; ++axis) {
-    const struct cut_interval *interval = &tree->axes[axis].level[level][at[axis]];
-    views *= interval->last - interval->first + 1;
-  }
-  measure_wide(tree, level, at, views > FEW_VIEWS ? CUT_SPREADS : FEW_SPREADS, scratch, out);
+  struct cut_estimate *out = cut_estimates(tree, level, at);
+  measure_wide(tree, level, at, scratch, out);
   measure_narrow(tree, level, at, scratch, out);
   find_part(tree, level, at, scratch);
   encode_all(tree, scratch);

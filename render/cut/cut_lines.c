@@ -1,10 +1,9 @@
-/* cut_lines.c - what a node is off where a receiver's view of it crosses one st sample line
- * (cut_tree.h).
+/* cut_lines.c - the error of a node that is seen across one line of st samples (cut_tree.h).
  *
- * Radiance along s bends at a sample by the second difference D of the samples there. What is
- * beyond the line adds the integral of D (a - a0) to a linear radiance: a node knows the views'
- * mean D and its first moment, the rest is its error. It is proportional to the width of the view
- * in st samples, and measured for lines at all views. */
+ * Radiance along s has a kink at a sample, the second difference D of the samples there, its
+ * curvature. What is beyond the line adds the integral of D (a - a0) to a linear radiance: a node
+ * knows the views' mean D and its first moment, the rest is its error. It is proportional to the
+ * width of the node in st samples, and measured for lines at all views. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,49 +18,38 @@ enum { SUMS = 2, RING = 3, FINE = 8 };
 static const float first_moment = 0.75f;
 
 struct cut_lines {
-  size_t floats;   /* of a row of st samples, padded */
-  float *rows;     /* [RING][SUMS][view] sums over views along the other axis */
-  float *bends;    /* [SUMS][view] */
-  float *weights;  /* [line][view] */
-  float *share[2]; /* [view] */
-  float *most;     /* one row */
-  float *second;   /* one row, and weights of the views */
+  size_t floats;    /* of a row of st samples, padded */
+  float *rows;      /* [RING][SUMS][view] sums over views along the other axis */
+  float *curvature; /* [SUMS][view] second differences */
+  float *most;      /* one row */
+  float *second;    /* one row, and weights of the views */
+  float *share[2];  /* [view] */
+  float *weights;   /* [line][view] */
+  float memory[];   /* of all of these */
 };
 
 struct cut_lines *cut_lines_make(const struct cut_tree *tree) {
   const struct light_axis *axes = tree->page->axes;
-  struct cut_lines *made = calloc(1, sizeof *made);
-  if (!made) return NULL;
   const size_t views =
       (size_t)(axes[0].near_count > axes[1].near_count ? axes[0].near_count : axes[1].near_count);
-  made->floats = (3 * (size_t)axes[0].far_count + 3) / 4 * 4;
-  made->rows = calloc(RING * SUMS * views * made->floats, sizeof(float));
-  made->bends = calloc(SUMS * views * made->floats, sizeof(float));
-  made->weights = calloc((views + FINE) * views, sizeof(float));
-  made->most = calloc(made->floats, sizeof(float));
-  made->second = calloc(made->floats + views, sizeof(float));
-  for (int k = 0; k < 2; ++k) made->share[k] = calloc(views, sizeof(float));
-  if (made->rows && made->bends && made->weights && made->most && made->second && made->share[0] &&
-      made->share[1])
-    return made;
-  cut_lines_free(made);
-  return NULL;
+  const size_t floats = (3 * (size_t)axes[0].far_count + 3) / 4 * 4;
+  const size_t rows = (RING * SUMS + SUMS) * views + 2, others = (views + FINE + 3) * views;
+  struct cut_lines *made = calloc(1, sizeof *made + (rows * floats + others) * sizeof(float));
+  if (!made) return NULL;
+  made->floats = floats;
+  made->rows = made->memory;
+  made->curvature = made->rows + RING * SUMS * views * floats;
+  made->most = made->curvature + SUMS * views * floats;
+  made->second = made->most + floats;
+  made->share[0] = made->second + floats + views;
+  made->share[1] = made->share[0] + views;
+  made->weights = made->share[1] + views;
+  return made;
 }
 
 void cut_lines_free(struct cut_lines *lines) {
-  if (!lines) return;
-  free(lines->rows);
-  free(lines->bends);
-  free(lines->weights);
-  free(lines->most);
-  free(lines->second);
-  for (int k = 0; k < 2; ++k) free(lines->share[k]);
   free(lines);
 }
-
-/* Gauss nodes and weights on [0, 1]: exact to the fifth power. */
-static const double gauss_at[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
-static const double gauss_weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
 /* Integrals of H (a - crossing) and of that times (a - center), over a > crossing; distances are
  * from `center`. */
@@ -74,9 +62,9 @@ static void find_hinge(const struct cut_interval *part, double center, double cr
     const double low = fmax(piece->low, crossing - shift), width = piece->high - low;
     const double rise = (piece->to - piece->from) / (piece->high - piece->low);
     for (int g = 0; width > 0 && g < 3; ++g) {
-      double d = low + gauss_at[g] * width;
+      double d = low + cut_gauss_at[g] * width;
       double h = piece->from + rise * (d - piece->low);
-      double more = gauss_weight[g] * width * h * (d + shift - crossing);
+      double more = cut_gauss_weight[g] * width * h * (d + shift - crossing);
       hinge[0] += more;
       hinge[1] += more * (d + shift);
     }
@@ -135,7 +123,6 @@ static void find_shares(const struct cut_interval *node, const struct cut_interv
 /* One row of st samples, for every view along the axis: sums over those along the other. */
 static void sum_row(const struct cut_tree *tree, const struct cut_interval *const node[2], int axis,
                     int row, struct cut_lines *lines) {
-  const struct seen_page seen = {.page = tree->page};
   const size_t floats = lines->floats, used = 3 * (size_t)tree->page->axes[0].far_count;
   const int count = node[axis]->last - node[axis]->first + 1;
   const int others = node[1 - axis]->last - node[1 - axis]->first + 1;
@@ -145,8 +132,8 @@ static void sum_row(const struct cut_tree *tree, const struct cut_interval *cons
     float *first = out + (size_t)count * floats;
     for (int j = 0; j < others; ++j) {
       int at[2] = {node[0]->first + (axis ? j : i), node[1]->first + (axis ? i : j)};
-      const float *from = tree->page->slab.rgb + seen_page_offset(&seen, 1, at[1], row) +
-                          seen_page_offset(&seen, 0, at[0], 0);
+      const float *from =
+          cut_view(tree, at) + 3 * (size_t)row * (size_t)slab_width(&tree->page->slab);
       const float share[2] = {lines->share[0][j], lines->share[1][j]};
       size_t k = 0;
       for (; k + 4 <= used; k += 4) {
@@ -163,15 +150,15 @@ static void sum_row(const struct cut_tree *tree, const struct cut_interval *cons
 }
 
 /* Second differences along s or t; beyond the ends radiance is constant. */
-static void find_bends(const struct cut_tree *tree, int axis, int rows, int row,
-                       struct cut_lines *lines) {
+static void find_curvature(const struct cut_tree *tree, int axis, int rows, int row,
+                           struct cut_lines *lines) {
   const struct light_axis *axes = tree->page->axes;
   const size_t floats = lines->floats, ring = (size_t)rows * floats;
   const float *at = lines->rows + (size_t)(row % RING) * ring;
   const int low = row > 0 ? row - 1 : row, high = row + 1 < axes[1].far_count ? row + 1 : row;
   const float *before = axis ? lines->rows + (size_t)(low % RING) * ring : at;
   const float *after = axis ? lines->rows + (size_t)(high % RING) * ring : at;
-  float *out = lines->bends;
+  float *out = lines->curvature;
   if (axis) {
     for (size_t k = 0; k < ring; ++k) out[k] = before[k] + after[k] - 2 * at[k];
     return;
@@ -186,13 +173,13 @@ static void find_bends(const struct cut_tree *tree, int axis, int rows, int row,
 static void find_most(int views, int count, struct cut_lines *lines) {
   const size_t floats = lines->floats;
   for (size_t k = 0; k < floats; k += 4) {
-    const float *weight = lines->weights, *bends = lines->bends + k;
+    const float *weight = lines->weights, *curvature = lines->curvature + k;
     simd_float4 most = {0};
     for (int line = 0; line < count; ++line, weight += views) {
       simd_float4 mean = {0}, first = {0};
       for (int i = 0; i < views; ++i) {
-        mean += SIMD_LOAD(simd_floats4, bends + (size_t)i * floats) * weight[i];
-        first += SIMD_LOAD(simd_floats4, bends + (size_t)(views + i) * floats) * weight[i];
+        mean += SIMD_LOAD(simd_floats4, curvature + (size_t)i * floats) * weight[i];
+        first += SIMD_LOAD(simd_floats4, curvature + (size_t)(views + i) * floats) * weight[i];
       }
       most = simd_larger(most, simd_magnitude(mean) + simd_magnitude(first));
     }
@@ -214,8 +201,8 @@ static void sum_second(const float *rows, int views, struct cut_lines *lines) {
 
 void cut_lines_measure(const struct cut_tree *tree, int level, const int at[2], int axis,
                        struct cut_lines *lines, simd_float4 *off, simd_float4 *second) {
-  const struct cut_interval *const node[2] = {&tree->axes[0].level[level][at[0]],
-                                              &tree->axes[1].level[level][at[1]]};
+  const struct cut_interval *node[2];
+  cut_intervals(tree, level, at, node);
   const int views = node[axis]->last - node[axis]->first + 1, last = tree->levels - 1;
   const int width = tree->page->axes[0].far_count, height = tree->page->axes[1].far_count;
   memset(off, 0, cut_texels(tree) * sizeof *off);
@@ -227,7 +214,7 @@ void cut_lines_measure(const struct cut_tree *tree, int level, const int at[2], 
   for (int l = 0; l < height; ++l) {
     if (!axis) sum_row(tree, node, axis, l, lines);
     if (axis && l + 1 < height) sum_row(tree, node, axis, l + 1, lines);
-    find_bends(tree, axis, SUMS * views, l, lines);
+    find_curvature(tree, axis, SUMS * views, l, lines);
     find_most(views, count, lines);
     sum_second(lines->rows + (size_t)(l % RING * SUMS * views) * lines->floats, views, lines);
     for (int k = 0; k < width; ++k, ++off, ++second)

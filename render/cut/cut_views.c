@@ -1,4 +1,3 @@
-/* cut_views.c - see cut_views.h. */
 #include "cut/cut_views.h"
 
 #include <math.h>
@@ -7,21 +6,25 @@
 
 #include "base/simd.h"
 
-enum { MOST = 64, PAIRS = 4 * MOST, ROWS = 4 * MOST, SLOPES = CUT_VIEWS_NODES * MOST };
+enum {
+  PAIRS = 4 * CUT_VIEWS_MOST,
+  ROWS = 4 * CUT_VIEWS_MOST,
+  SLOPES = CUT_VIEWS_NODES * CUT_VIEWS_MOST
+};
 
-/* Two st samples beside each other in one view along u; weights for RGB RGB and two floats more.
- * All slopes of a view's nodes are beside each other. */
+/* Along u, samples are taken in pairs: two st samples beside each other in one view, as RGB RGB and
+ * two floats of no weight. Along v they are rows of the raster. The slopes of a view's nodes are
+ * beside each other. */
 struct cut_views {
   simd_float8 sum;
   int nodes;
   int count; /* of views along v */
   const float *rgb;
-  double scale;    /* of the sum */
   float normal[3]; /* of the receiver, relative to the kernel at the center */
   int pairs, slopes, rows;
   int view[PAIRS]; /* number of its first slope */
   size_t offset[PAIRS];
-  int first[MOST + 1]; /* rows of each view along v */
+  int first[CUT_VIEWS_MOST + 1]; /* rows of each view along v */
   size_t row[ROWS];
   float row_weight[CUT_VIEWS_NODES][ROWS];
   float row_slope[SLOPES];
@@ -57,25 +60,26 @@ struct sees {
 };
 
 /* Relative derivatives of the kernel along an axis, the second one halved. */
-static void find_bend(const struct kernel *kernel, const double at[2], int axis, double bend[2]) {
+static void find_derivatives(const struct kernel *kernel, const double at[2], int axis,
+                             double by[2]) {
   const double g = kernel_height(kernel, at[0], at[1]);
   const double per_square = 1 / (1 + at[0] * at[0] + at[1] * at[1]);
   const double n = kernel->normal[axis] / g, p = at[axis] * per_square;
-  bend[0] = n - 4 * p;
-  bend[1] = -4 * n * p - 2 * per_square + 12 * p * p;
+  by[0] = n - 4 * p;
+  by[1] = -4 * n * p - 2 * per_square + 12 * p * p;
 }
 
 static void find_slope(const struct seen_page *seen, int axis, const double middle[2],
                        struct sees *sees) {
   const double reach = sees->axis->half * sees->per_height / 2;
-  double bends[2][2], at[2] = {middle[0], middle[1]};
+  double ends[2][2], at[2] = {middle[0], middle[1]};
   for (int side = 0; side < 2; ++side) {
     at[axis] = middle[axis] + (side ? reach : -reach);
-    find_bend(&seen->kernel, at, axis, bends[side]);
+    find_derivatives(&seen->kernel, at, axis, ends[side]);
   }
-  sees->first[1] = (bends[1][0] - bends[0][0]) / (2 * reach);
-  sees->first[0] = (bends[1][0] + bends[0][0]) / 2 - sees->first[1] * middle[axis];
-  sees->second = (bends[0][1] + bends[1][1]) / 2;
+  sees->first[1] = (ends[1][0] - ends[0][0]) / (2 * reach);
+  sees->first[0] = (ends[1][0] + ends[0][0]) / 2 - sees->first[1] * middle[axis];
+  sees->second = (ends[0][1] + ends[1][1]) / 2;
 }
 
 /* Lagrange's polynomials, ascending. */
@@ -117,9 +121,9 @@ struct weights {
   float weight[CUT_VIEWS_NODES][CUT_TAPS];
 };
 
-/* A whole hat function, `width` wide to each side, per = 1/width. A product with a hat function of
- * st is linear in cells of st, and bends where a sample of st is in the view: by the integrals of a
- * hat function twice and three times. */
+/* A whole hat function, `width` wide to each side, per = 1/width. Its product with a hat function
+ * of st is linear in cells of st, and has a kink where a sample of st is in the view: by the
+ * integrals of a hat function twice and three times. */
 static bool weigh_hat(double place, double width, double per, const double by[2], int node,
                       struct weights *out) {
   const int cell = (int)place, low = (int)(place - width), high = (int)(place + width);
@@ -135,10 +139,10 @@ static bool weigh_hat(double place, double width, double per, const double by[2]
   for (int line = low + 1; line <= high; ++line) {
     const double d = place - line, q = 1 - fabs(d) * per, cube = q * q * q / 6 * width;
     const double odd = slope * cube * (1 - q / 2);
-    const float bend = (float)(all * cube + (line <= cell ? -odd : odd));
-    sum[line - 1 - first] += bend;
-    sum[line - first] -= 2 * bend;
-    sum[line + 1 - first] += bend;
+    const float kink = (float)(all * cube + (line <= cell ? -odd : odd));
+    sum[line - 1 - first] += kink;
+    sum[line - first] -= 2 * kink;
+    sum[line + 1 - first] += kink;
   }
   return true;
 }
@@ -152,8 +156,8 @@ static bool weigh(const struct sees *sees, const struct cut_interval *view, floa
   const double width = view->half * sees->per_height;
   const double place = (axis->kappa * view->center - x - axis->far_low) * sees->per_step - 0.5;
   const double reach = fabs(sees->speed) * view->half;
-  const double bend[CUT_MOMENTS] = {1, (sees->first[0] + sees->first[1] * x) * width,
-                                    sees->second * width * width};
+  const double expanded[CUT_MOMENTS] = {1, (sees->first[0] + sees->first[1] * x) * width,
+                                        sees->second * width * width};
   const bool inner = view->first > 0 && view->last < axis->near_count - 1;
   const bool hat = inner && sees->nodes <= 2 && place - reach >= 0 && place + reach < last;
   struct cut_taps taps;
@@ -164,7 +168,7 @@ static bool weigh(const struct sees *sees, const struct cut_interval *view, floa
                                       !(place - reach >= -0.5 && place + reach <= last + 0.5)};
   if (!hat && !cut_taps_find(view, &sight, axis->far_count, &taps)) return false;
   for (int node = 0; node < sees->nodes; ++node) {
-    const double *by = sees->nodes == 1 ? bend : sees->share[node];
+    const double *by = sees->nodes == 1 ? expanded : sees->share[node];
     slopes[node] = (float)(x + nodes_at[sees->nodes][node] * width);
     const double hats[2] = {by[0] + by[2] / 6, sees->speed < 0 ? -by[1] : by[1]};
     if (hat && !weigh_hat(place, reach, sees->per_speed * view->per_half, hats, node, out))
@@ -274,150 +278,40 @@ SIMD_INLINE void sum_rows(struct cut_views *views, int first, int count, int nod
   views->sum = sum;
 }
 
-SIMD_INLINE void sum_row_body(struct cut_views *views, int view) {
-  const int first = views->first[view], count = views->first[view + 1] - first;
-  find_kernel(views, view);
-  if (views->nodes == 1 && count == 2)
-    sum_rows(views, first, 2, 1);
-  else if (views->nodes == 1)
-    sum_rows(views, first, count, 1);
-  else if (views->nodes == 2)
-    sum_rows(views, first, count, 2);
-  else if (views->nodes == 3)
-    sum_rows(views, first, count, 3);
-  else
-    sum_rows(views, first, count, 4);
+SIMD_INLINE void sum_views_body(struct cut_views *views) {
+  for (int view = 0; view < views->count; ++view) {
+    const int first = views->first[view], count = views->first[view + 1] - first;
+    find_kernel(views, view);
+    if (views->nodes == 1 && count == 2)
+      sum_rows(views, first, 2, 1);
+    else if (views->nodes == 1)
+      sum_rows(views, first, count, 1);
+    else if (views->nodes == 2)
+      sum_rows(views, first, count, 2);
+    else if (views->nodes == 3)
+      sum_rows(views, first, count, 3);
+    else
+      sum_rows(views, first, count, 4);
+  }
 }
 
-SIMD_DISPATCH(sum_row, (struct cut_views * views, int seen), (views, seen))
+SIMD_DISPATCH(sum_views, (struct cut_views * views), (views))
 
-static void find_middle(const struct seen_page *seen, double middle[2]) {
-  for (int axis = 0; axis < 2; ++axis) middle[axis] = -seen->foot[axis] / seen->height;
-}
-
-bool cut_views_prepare(const struct cut_tree *tree, const struct seen_page *seen, int nodes,
-                       struct cut_views *views) {
+bool cut_views_light(const struct cut_tree *tree, const struct seen_page *seen, int nodes,
+                     struct cut_views *views, double rgb[3]) {
   const struct light_axis *axes = seen->page->axes;
   double middle[2];
-  find_middle(seen, middle);
+  seen_page_middle(seen, middle);
   const struct sees u = look_along(seen, 0, nodes, middle), v = look_along(seen, 1, nodes, middle);
   if (!weigh_columns(tree, seen, &u, views) || !weigh_rows(tree, seen, &v, views)) return false;
   const double g = kernel_height(&seen->kernel, middle[0], middle[1]);
+  const double scale = g * axes[0].near_step * axes[1].near_step * u.per_height * u.per_height;
   for (int c = 0; c < 3; ++c) views->normal[c] = (float)(seen->kernel.normal[c] / g);
   views->nodes = nodes;
   views->count = axes[1].near_count;
   views->rgb = seen->page->slab.rgb;
-  views->scale = g * axes[0].near_step * axes[1].near_step * u.per_height * u.per_height;
   views->sum = (simd_float8){0};
+  sum_views(views);
+  for (int c = 0; c < 3; ++c) rgb[c] = (double)(views->sum[c] + views->sum[3 + c]) * scale;
   return true;
-}
-
-void cut_views_sum(struct cut_views *const *views, int count) {
-  bool more = true;
-  for (int view = 0; more; ++view) {
-    more = false;
-    for (int k = 0; k < count; ++k) {
-      if (view >= views[k]->count) continue;
-      sum_row(views[k], view);
-      more = true;
-    }
-  }
-}
-
-void cut_views_light(const struct cut_views *views, double rgb[3]) {
-  for (int c = 0; c < 3; ++c) rgb[c] = (double)(views->sum[c] + views->sum[3 + c]) * views->scale;
-}
-
-/* ---- What it costs and how exact it is ---- */
-
-/* What the kernel's slope leaves out, in units of its change over a view and over the aperture. */
-static const double view_order = 0.5, aperture_order = 0.15;
-/* From a view's size over its distance on, squared, at which the slope in the middle of the
- * aperture says nothing of it. */
-static const double steep = 0.25;
-static const double rounding = 3e-6, nodes_rounding = 3e-5;
-
-/* Slopes between which the aperture is; returns the square of the distance to its nearest point, in
- * units of the height. */
-static double find_ends(const struct seen_page *seen, double low[2], double high[2]) {
-  double square = 1;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double half = seen->page->axes[axis].half, foot = seen->foot[axis];
-    low[axis] = (-half - foot) / seen->height;
-    high[axis] = (half - foot) / seen->height;
-    const double nearest = low[axis] > 0 ? low[axis] : high[axis] < 0 ? high[axis] : 0;
-    square += nearest * nearest;
-  }
-  return square;
-}
-
-/* Slopes are in single precision: what that makes of the height over the tangent plane. */
-static double slope_rounding(const struct seen_page *seen, const double low[2],
-                             const double high[2]) {
-  double range[2], far = 1;
-  kernel_heights(&seen->kernel, low, high, range);
-  for (int axis = 0; axis < 2; ++axis) far = hypot(far, fmax(fabs(low[axis]), fabs(high[axis])));
-  return range[0] > 0 ? 2e-7 * far / range[0] : INFINITY;
-}
-
-/* With one node and the kernel's slope. */
-static double slope_error(const struct seen_page *seen) {
-  const struct light_axis *axes = seen->page->axes;
-  const double *n = seen->kernel.normal;
-  double middle[2], low[2], high[2], error = rounding;
-  const double nearest = find_ends(seen, low, high);
-  find_middle(seen, middle);
-  error += slope_rounding(seen, low, high);
-  const double square = 1 + middle[0] * middle[0] + middle[1] * middle[1];
-  const double tilt =
-      sqrt(n[0] * n[0] + n[1] * n[1]) / kernel_height(&seen->kernel, middle[0], middle[1]);
-  const double bend = tilt + 2 / sqrt(square);
-  for (int axis = 0; axis < 2; ++axis) {
-    const double step = axes[axis].near_step / seen->height, half = axes[axis].half / seen->height;
-    const double wide = fabs(axes[axis].kappa * seen->height - 1) * step / axes[axis].far_step;
-    error += bend * bend * step * (view_order * step + aperture_order * half * fmin(wide, 1));
-    if (step * step > steep * nearest) error = INFINITY;
-  }
-  return error;
-}
-
-/* What polynomials through the nodes leave out: of the kernel's part 1/r^4, whose n-th derivative
- * is about (n + 1)!/r^n, and of that times its height over the tangent plane. */
-static double nodes_error(const struct seen_page *seen, int nodes) {
-  static const double order[CUT_VIEWS_NODES + 1] = {0, 0, 1, 0.8, 0.6};
-  const struct light_axis *axes = seen->page->axes;
-  double low[2], high[2], range[2], error = nodes_rounding;
-  const double square = find_ends(seen, low, high);
-  error += slope_rounding(seen, low, high);
-  kernel_heights(&seen->kernel, low, high, range);
-  if (!(range[0] > 0)) return INFINITY;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double step = axes[axis].near_step / seen->height, part = step / sqrt(square);
-    const double tilt = fabs(seen->kernel.normal[axis]) * step / range[0];
-    error += order[nodes] * pow(part, nodes - 1) * (part + tilt);
-  }
-  return error;
-}
-
-int cut_views_nodes(const struct seen_page *seen, double tolerance, double *error) {
-  const struct light_axis *axes = seen->page->axes;
-  if (axes[0].near_count > MOST || axes[1].near_count > MOST || !(seen->height > 0)) return 0;
-  for (int nodes = 1; nodes <= CUT_VIEWS_NODES; ++nodes) {
-    *error = nodes == 1 ? slope_error(seen) : nodes_error(seen, nodes);
-    if (*error <= tolerance) return nodes;
-  }
-  return 0;
-}
-
-double cut_views_price(const struct seen_page *seen, int nodes) {
-  static const double fixed = 200, view_price = 20, pair_price = 1.2;
-  const struct light_axis *axes = seen->page->axes;
-  double samples = 1, views = 0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double wide = fabs(axes[axis].kappa * seen->height - 1) / seen->height *
-                        axes[axis].near_step / axes[axis].far_step;
-    samples *= (2 + 2 * wide) * axes[axis].near_count;
-    views += axes[axis].near_count;
-  }
-  return fixed + view_price * views + nodes * pair_price * samples / 2;
 }

@@ -1,4 +1,3 @@
-/* gl_context.c - see gl_context.h. */
 #include "gl/gl_context.h"
 
 #include <dlfcn.h>
@@ -33,14 +32,14 @@ enum result gl_check(const char *what, struct error *error) {
   return gl_fail(error, RESULT_IO, "error 0x%04x at %s", code, what);
 }
 
-/* libepoxy ends the program where a library is missing: asked before. */
+/* libepoxy aborts where a library is missing, so look first. */
 static bool have_library(const char *name) {
   void *library = dlopen(name, RTLD_LAZY);
   if (library) dlclose(library);
   return library != NULL;
 }
 
-/* Surfaceless where the driver knows it: it asks for no display. */
+/* Surfaceless where the driver can: it needs no display. */
 static EGLDisplay find_display(void) {
   const char *known = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   EGLDisplay display = EGL_NO_DISPLAY;
@@ -76,7 +75,7 @@ static enum result open_context(struct gl_context *context, struct error *error)
 
 enum result gl_context_create(struct gl_context **context, struct error *error) {
   *context = calloc(1, sizeof **context);
-  if (!*context) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!*context) return result_no_memory(error);
   (*context)->display = EGL_NO_DISPLAY;
   (*context)->context = EGL_NO_CONTEXT;
   enum result result = open_context(*context, error);

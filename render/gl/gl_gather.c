@@ -1,4 +1,3 @@
-/* gl_gather.c - see gl_gather.h. */
 #include "gl/gl_gather.h"
 
 #include <epoxy/gl.h>
@@ -13,7 +12,7 @@ struct gl_gather {
   struct gl_sum sum;
   struct gl_receivers receivers;
   struct gather_counts counts;
-  float (*pixels)[4]; /* [GL_GATHER_MOST]: on their way to and fro */
+  float (*pixels)[4]; /* [GL_GATHER_MOST]: to be uploaded, or downloaded */
 };
 
 enum result gl_gather_create(const struct gl_sum_settings *settings, struct gl_gather **gather,
@@ -21,7 +20,7 @@ enum result gl_gather_create(const struct gl_sum_settings *settings, struct gl_g
   enum result result = RESULT_OK;
   *gather = calloc(1, sizeof **gather);
   if (*gather) (*gather)->pixels = calloc(GL_GATHER_MOST, sizeof *(*gather)->pixels);
-  if (!*gather || !(*gather)->pixels) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!*gather || !(*gather)->pixels) result = result_no_memory(error);
   if (result == RESULT_OK) result = gl_context_create(&(*gather)->context, error);
   if (result == RESULT_OK) result = gl_sum_create(settings, &(*gather)->sum, error);
   if (result == RESULT_OK)
@@ -48,7 +47,7 @@ const struct gather_counts *gl_gather_counts(const struct gl_gather *gather) {
   return &gather->counts;
 }
 
-/* So far away that floats do not hold it, nor its light. */
+/* So far away that its position, or its light, is beyond floats. */
 static bool is_beyond(const struct receiver *receiver, const double origin[3]) {
   for (int c = 0; c < 3; ++c)
     if (!(fabs(receiver->position[c] - origin[c]) < 1e36)) return true;

@@ -1,4 +1,3 @@
-/* gl_maps.c - see gl_maps.h. */
 #include "gl/gl_maps.h"
 
 #include <epoxy/gl.h>
@@ -6,7 +5,7 @@
 
 #include "gl/gl_program.h"
 
-/* Bytes of maps that are kept at a time. */
+/* Bytes of all maps at a time. */
 static const double most_memory = 0x1p28;
 
 static enum result upload(const struct scene *scene, const double origin[3], struct gl_maps *maps,
@@ -14,7 +13,7 @@ static enum result upload(const struct scene *scene, const double origin[3], str
   if (scene->triangles > INT32_MAX / 3)
     return gl_fail(error, RESULT_BAD, "%zu triangles are more than it can draw", scene->triangles);
   float *corners = calloc(scene->vertices + 1, 3 * sizeof *corners);
-  if (!corners) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!corners) return result_no_memory(error);
   for (size_t k = 0; k < 3 * scene->vertices; ++k)
     corners[k] = (float)(scene->position[k / 3][k % 3] - origin[k % 3]);
   maps->indices = 3 * (int)scene->triangles;

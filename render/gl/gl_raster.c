@@ -1,4 +1,3 @@
-/* gl_raster.c - see gl_raster.h. */
 #include "gl/gl_raster.h"
 
 #include <epoxy/gl.h>
@@ -18,11 +17,8 @@ static void set_corner(const struct gl_raster *raster, size_t triangle, int k,
                        struct corner *corner) {
   const struct scene *scene = raster->scene;
   const int *corners = scene->corners[triangle];
-  double edge[2][3], geometric[3];
-  for (int e = 0; e < 2; ++e)
-    vector_subtract(scene->position[corners[e + 1]], scene->position[corners[0]], edge[e]);
-  vector_cross(edge[0], edge[1], geometric);
-  vector_normalise(geometric);
+  double geometric[3];
+  scene_geometric(scene, triangle, geometric);
   for (int c = 0; c < 3; ++c) {
     corner->position[c] = (float)(scene->position[corners[k]][c] - raster->origin[c]);
     corner->normal[c] = (float)scene->normal[corners[k]][c];
@@ -31,7 +27,7 @@ static void set_corner(const struct gl_raster *raster, size_t triangle, int k,
   for (int c = 0; c < 2; ++c) corner->uv[c] = (float)scene->uv[corners[k]][c];
 }
 
-/* Which corners are those of each material: they are drawn together. */
+/* Groups the corners by material: each is drawn at once. */
 static void set_parts(struct gl_raster *raster) {
   const struct scene *scene = raster->scene;
   int first = 0;
@@ -61,7 +57,7 @@ static enum result upload_mesh(struct gl_raster *raster, struct error *error) {
   int *next = calloc((size_t)scene->material_count + 1, sizeof *next);
   enum result result = RESULT_OK;
   if (!corners || !next) {
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+    result = result_no_memory(error);
     goto out;
   }
   set_parts(raster);
@@ -110,8 +106,7 @@ enum result gl_raster_create(const struct scene *scene, const struct gl_limits *
       raster->origin[c] += (scene->position[k][c] - raster->origin[c]) / (double)(k + 1);
   raster->parts = calloc((size_t)scene->material_count + 1, sizeof *raster->parts);
   raster->textures = calloc((size_t)scene->texture_count + 1, sizeof *raster->textures);
-  if (!raster->parts || !raster->textures)
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!raster->parts || !raster->textures) result = result_no_memory(error);
   for (int k = 0; k < scene->texture_count && result == RESULT_OK; ++k)
     result = upload_texture(&scene->textures[k], limits, &raster->textures[k], error);
   if (result == RESULT_OK) result = upload_mesh(raster, error);
@@ -198,10 +193,10 @@ static void set_material(const struct scene_material *material, unsigned texture
 }
 
 static void clear(const struct gl_surfaces *surfaces, const double background[3]) {
-  static const float nothing[4] = {0}, nobody[4] = {0, 0, 0, -1};
+  static const float nothing[4] = {0}, no_receiver[4] = {0, 0, 0, -1};
   const float behind[4] = {(float)background[0], (float)background[1], (float)background[2], 0};
   glBindFramebuffer(GL_FRAMEBUFFER, surfaces->target);
-  glClearBufferfv(GL_COLOR, 0, nobody);
+  glClearBufferfv(GL_COLOR, 0, no_receiver);
   for (int k = 1; k < 6; ++k) glClearBufferfv(GL_COLOR, k, nothing);
   glClearBufferfv(GL_COLOR, 6, behind);
   glClearBufferfv(GL_DEPTH, 0, nothing);

@@ -1,6 +1,6 @@
-/* gl_raster.h - what a camera sees of a scene, drawn: receivers as gl_sum.h takes them, and what
- * shade.h knows of each pixel besides. The surfaces, lights and their normals are those of
- * rays through the middles of the pixels, but for edges: corners are rounded to 1/256 pixel. */
+/* gl_raster.h - what a camera sees of a scene, rasterised: receivers as gl_sum.h takes them, and
+ * the rest of a struct shade_hit for each pixel. The surfaces and their normals are those of rays
+ * through the middles of the pixels, but for edges: corners are rounded to 1/256 pixel. */
 #ifndef GL_RASTER_H
 #define GL_RASTER_H
 
@@ -30,7 +30,7 @@ enum result gl_raster_create(const struct scene *scene, const struct gl_limits *
                              struct gl_raster *raster, struct error *error);
 void gl_raster_free(struct gl_raster *raster); /* zeroed raster allowed */
 
-/* What pixels show; owned textures of the receivers' size. */
+/* The reflectances and the radiance of pixels; owned textures of the receivers' size. */
 struct gl_surfaces {
   unsigned diffuse, specular;
   unsigned shows; /* radiance without lights; w: 1 where there is a surface, else 0 */

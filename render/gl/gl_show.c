@@ -1,4 +1,3 @@
-/* gl_show.c - see gl_show.h. */
 #include "gl/gl_show.h"
 
 #include <epoxy/gl.h>
@@ -127,7 +126,7 @@ enum result gl_show_read(const struct gl_show *show, struct picture *picture, st
   *picture = (struct picture){.width = show->width,
                               .height = show->height,
                               .rgb = calloc(row * (size_t)show->height, sizeof(float))};
-  if (!picture->rgb) return result_fail(error, RESULT_MEMORY, "out of memory for the picture");
+  if (!picture->rgb) return result_no_memory(error);
   glBindFramebuffer(GL_FRAMEBUFFER, show->target);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   for (int y = 0; y < show->height; ++y)

@@ -1,4 +1,3 @@
-/* gl_slides.c - see gl_slides.h. */
 #include "gl/gl_slides.h"
 
 #include <epoxy/gl.h>
@@ -8,14 +7,15 @@
 
 #include "base/vector.h"
 
-/* A view before it has its place. */
+/* A view, before it is ordered. */
 struct candidate {
   int i, j;
   int group[2];
   uint32_t group_key, key;
 };
 
-/* The bits of both, the lowest first: neighbours are far apart in the order of such keys. */
+/* The bits of both interleaved, the lowest first: neighbours are far apart in the order of such
+ * keys. */
 static uint32_t spread(int i, int j) {
   uint32_t key = 0;
   for (int bit = 0; bit < 16; ++bit) {
@@ -67,7 +67,7 @@ static enum result number_groups(const struct candidate *views, struct gl_slides
                                  struct error *error) {
   size_t columns = (size_t)slides->page->axes[0].near_count;
   int *numbers = calloc(columns * (size_t)slides->page->axes[1].near_count, sizeof *numbers);
-  if (!numbers) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!numbers) return result_no_memory(error);
   for (int k = 0; k < slides->count; ++k) {
     const int *group = views[k].group;
     int *number = &numbers[(size_t)group[1] * columns + (size_t)group[0]];
@@ -129,7 +129,7 @@ static enum result make_table(const double *values, int rows, int columns, unsig
                               unsigned *buffer, struct error *error) {
   size_t count = (size_t)rows * (size_t)columns;
   float *floats = calloc(count, sizeof *floats);
-  if (!floats) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!floats) return result_no_memory(error);
   for (size_t k = 0; k < count; ++k) floats[k] = (float)values[k];
   glGenBuffers(1, buffer);
   glBindBuffer(GL_TEXTURE_BUFFER, *buffer);
@@ -141,7 +141,8 @@ static enum result make_table(const double *values, int rows, int columns, unsig
   return gl_check("the views", error);
 }
 
-/* So that no sum leaves the range of single precision: a power of two near the largest. */
+/* A power of two near the largest sample: divided by it, no sum leaves the range of single
+ * precision. */
 static double find_scale(const struct slab *slab) {
   size_t count = 3 * slab_sample_count(slab);
   float peak = 0;
@@ -159,7 +160,7 @@ static enum result upload(const struct candidate *views, int layers, struct gl_s
   slides->array = calloc((size_t)slides->arrays + 1, sizeof *slides->array);
   slides->scale *= scale;
   enum result result = RESULT_OK;
-  if (!pixels || !slides->array) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!pixels || !slides->array) result = result_no_memory(error);
   for (int k = 0; k < slides->arrays && result == RESULT_OK; ++k) {
     struct gl_slides_array *array = &slides->array[k];
     array->first = k * layers;
@@ -212,8 +213,7 @@ enum result gl_slides_create(const struct light_page *page, double gain, const d
   slides->at = calloc(views, sizeof *slides->at);
   slides->middle = calloc(views, sizeof *slides->middle);
   slides->drawn = calloc(views, sizeof *slides->drawn);
-  if (!found || !slides->at || !slides->middle || !slides->drawn)
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!found || !slides->at || !slides->middle || !slides->drawn) result = result_no_memory(error);
   if (result == RESULT_OK) {
     slides->count = find_views(slab, groups, together, found);
     result = number_groups(found, slides, error);

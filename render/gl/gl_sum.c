@@ -1,4 +1,3 @@
-/* gl_sum.c - see gl_sum.h. */
 #include "gl/gl_sum.h"
 
 #include <epoxy/gl.h>
@@ -14,7 +13,7 @@ enum { GLOSS = 1, SHADOWS = 2 };
 /* Texture units of the programs. */
 enum { POSITION, NORMAL, LIFT, EYE, SLIDES, VIEWS, MAPS };
 
-/* The middle of the pages: what is near them has small numbers. */
+/* The middle of the pages: positions relative to it are small near them. */
 static void find_origin(const struct gl_sum_settings *settings, double origin[3]) {
   int count = 0;
   memset(origin, 0, 3 * sizeof *origin);
@@ -74,15 +73,14 @@ static enum result make_slides(struct gl_sum *sum, struct error *error) {
 
 enum result gl_sum_create(const struct gl_sum_settings *settings, struct gl_sum *sum,
                           struct error *error) {
-  int pages = 0;
+  int pages = light_pages(settings->lights, settings->light_count);
   *sum = (struct gl_sum){.settings = *settings};
-  for (int l = 0; l < settings->light_count; ++l) pages += settings->lights[l].count;
   enum result result = gl_context_check(&sum->limits, error);
   if (result != RESULT_OK) return result;
   find_origin(settings, sum->origin);
   if (settings->occluders) make_room(sum);
   sum->slides = calloc((size_t)pages + 1, sizeof *sum->slides);
-  if (!sum->slides) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!sum->slides) result = result_no_memory(error);
   if (result == RESULT_OK) result = make_slides(sum, error);
   if (result == RESULT_OK && settings->occluders)
     result = gl_maps_create(settings->occluders, sum->origin, settings->map_size, sum->maps.room,
@@ -237,8 +235,7 @@ enum result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *receivers,
 
 void gl_sum_moved(struct gl_sum *sum, int light) {
   const struct gl_sum_settings *settings = &sum->settings;
-  int number = 0;
-  for (int l = 0; l < light; ++l) number += settings->lights[l].count;
+  int number = light_pages(settings->lights, light);
   for (int k = 0; k < settings->lights[light].count; ++k) {
     struct gl_slides *slides = &sum->slides[number + k];
     vector_subtract(slides->page->center, sum->origin, slides->center);

@@ -1,4 +1,3 @@
-/* light.c - see light.h. */
 #include "light/light.h"
 
 #include <float.h>
@@ -10,10 +9,11 @@
 #include "file/slab_file.h"
 #include "light/light_text.h"
 
-/* How far from a similarity a matrix may be: people print it with a few digits. */
+/* Relative error of a matrix that is meant to be a similarity: people print it with a few
+ * digits. */
 static const double matrix_tolerance = 1e-6;
 
-static void turn(const double matrix[4][3], const double from[3], double to[3]) {
+static void rotate(const double matrix[4][3], const double from[3], double to[3]) {
   for (int c = 0; c < 3; ++c)
     to[c] = from[0] * matrix[0][c] + from[1] * matrix[1][c] + from[2] * matrix[2][c];
 }
@@ -25,10 +25,10 @@ static bool straighten(double along[3], const double axis[3]) {
   return vector_length(along) > 1e-9 * length && vector_normalise(along);
 }
 
-/* The turning that takes the page's normal to `forward` and its v as nearly to `up` as it can:
+/* The rotation that takes the page's normal to `forward` and its v as nearly to `up` as it can:
  * rows are the images of x, y and z. */
-static void find_turning(const struct slab *page, const double forward[3], const double up[3],
-                         double matrix[4][3]) {
+static void find_rotation(const struct slab *page, const double forward[3], const double up[3],
+                          double matrix[4][3]) {
   double from[3][3], to[3][3];
   memcpy(from[0], page->normal, sizeof from[0]);
   memcpy(from[1], page->v, sizeof from[1]);
@@ -91,7 +91,7 @@ static enum result place(const char *text, const struct light_text *where, struc
   if (result == RESULT_OK && where->has_up && !(vector_length(where->up) > 0))
     result = result_fail(error, RESULT_BAD, "--light %s: up= has no direction", text);
   if (result == RESULT_OK && (where->has_toward || where->has_up))
-    find_turning(&light->pages[0].slab, forward, where->up, light->matrix);
+    find_rotation(&light->pages[0].slab, forward, where->up, light->matrix);
   for (int row = 0; row < 3; ++row)
     for (int c = 0; c < 3; ++c) light->matrix[row][c] *= where->scale;
   light->scale = scale * where->scale;
@@ -99,7 +99,7 @@ static enum result place(const char *text, const struct light_text *where, struc
   return result;
 }
 
-/* Half of the exponents that floats have, less what sums need. */
+/* Of 127 exponents that floats have above 1; the rest is for sums. */
 enum { UNIT = 100 };
 
 static void set_unit(struct light_page *page) {
@@ -123,7 +123,7 @@ enum result light_page_set_samples(struct light_page *page, struct error *error)
   set_unit(page);
   free(page->lit);
   page->lit = lit_rows(&page->slab);
-  return page->lit ? RESULT_OK : result_fail(error, RESULT_MEMORY, "out of memory");
+  return page->lit ? RESULT_OK : result_no_memory(error);
 }
 
 void light_page_free(struct light_page *page) {
@@ -143,14 +143,14 @@ static enum result set_axes(struct light_page *page, double scale, struct error 
   return light_page_set_samples(page, error);
 }
 
-/* Where the page is. False where numbers cannot hold that. */
+/* Places the page. False where the result is not finite. */
 static bool set_frame(const double matrix[4][3], struct light_page *page) {
   const double *axes[3] = {page->slab.u, page->slab.v, page->slab.normal};
-  turn(matrix, page->slab.center, page->center);
+  rotate(matrix, page->slab.center, page->center);
   bool finite = true;
   for (int c = 0; c < 3; ++c) {
     page->center[c] += matrix[3][c];
-    turn(matrix, axes[c], page->frame[c]);
+    rotate(matrix, axes[c], page->frame[c]);
     finite = vector_normalise(page->frame[c]) && finite;
     finite = isfinite(page->center[c]) && finite;
   }
@@ -183,7 +183,7 @@ enum result light_load(const char *text, struct light *light, struct error *erro
   light->pages = calloc((size_t)light->count, sizeof *light->pages);
   if (!light->pages) {
     slab_file_free_all(slabs, light->count);
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+    result = result_no_memory(error);
     goto out;
   }
   for (int page = 0; page < light->count; ++page) light->pages[page].slab = slabs[page];
@@ -205,6 +205,12 @@ void light_free(struct light *light) {
   *light = (struct light){0};
 }
 
+int light_pages(const struct light *lights, int count) {
+  int pages = 0;
+  for (int l = 0; l < count; ++l) pages += lights[l].count;
+  return pages;
+}
+
 bool light_move(struct light *light, const double matrix[4][3]) {
   bool finite = true;
   for (int page = 0; page < light->count; ++page)
@@ -213,6 +219,13 @@ bool light_move(struct light *light, const double matrix[4][3]) {
   for (int page = 0; !finite && page < light->count; ++page)
     set_frame(light->matrix, &light->pages[page]);
   return finite;
+}
+
+void light_page_corners(const struct light_page *page, double corners[4][3]) {
+  for (int k = 0; k < 4; ++k)
+    for (int c = 0; c < 3; ++c)
+      corners[k][c] = page->center[c] + (k & 1 ? 1 : -1) * page->axes[0].half * page->frame[0][c] +
+                      (k & 2 ? 1 : -1) * page->axes[1].half * page->frame[1][c];
 }
 
 /* Where the ray meets the page's front: the distance and the point (a, b) in scene units. */

@@ -33,7 +33,7 @@ struct light_page {
   struct light_axis axes[2];
   struct lit_row *lit; /* [rows of the raster]: where they are not black; owned */
   double unit; /* a power of two from 2^-100 on; samples divided by it are at most about 2^100, so
-                  that sums in single precision neither overflow nor lose small ones */
+                  that sums in single precision neither overflow nor underflow */
 };
 
 struct light {
@@ -49,18 +49,24 @@ struct light {
 enum result light_load(const char *text, struct light *light, struct error *error);
 void light_free(struct light *light); /* zeroed light allowed */
 
-/* Puts the light elsewhere, turned but as large as it was: `matrix` as light->matrix. False, and
- * nothing is changed, where numbers cannot hold that. */
+/* Pages of the first `count` lights: the number of the next light's first page. */
+int light_pages(const struct light *lights, int count);
+
+/* Moves and turns the light, without scaling it: `matrix` as light->matrix. False, and nothing is
+ * changed, where the result is not finite. */
 bool light_move(struct light *light, const double matrix[4][3]);
 
-/* Sets what the page knows of its slab's samples, after these have changed. Samples too small
- * for normal floats become 0: they have lost their digits, and processors are slow with them. */
+/* Sets what depends on the slab's samples, after these have changed. Denormal samples become 0:
+ * they have lost their digits, and processors are slow with them. */
 enum result light_page_set_samples(struct light_page *page, struct error *error);
 void light_page_free(struct light_page *page);
 
-/* Who looks into a lamp sees its slab: the nearest aperture that faces `origin` along the
- * unit `direction`, nearer than `limit`. Gives the radiance seen and returns the distance;
- * INFINITY where there is none. Apertures are transparent from behind. */
+/* The corners of the page's aperture, in scene space. */
+void light_page_corners(const struct light_page *page, double corners[4][3]);
+
+/* What a camera sees of the lamps themselves: the nearest aperture that faces `origin` along the
+ * unit `direction`, nearer than `limit`. Gives its radiance and returns the distance; INFINITY
+ * where there is none. Apertures are transparent from behind. */
 double light_seen(const struct light *lights, int count, const double origin[3],
                   const double direction[3], double limit, double rgb[3]);
 

@@ -1,4 +1,3 @@
-/* light_text.c - see light_text.h. */
 #include "light/light_text.h"
 
 #include <stdio.h>
@@ -6,13 +5,14 @@
 #include <string.h>
 
 #include "base/key_values.h"
+#include "base/numbers.h"
 
 /* Where the file's name ends: before the first KEY=VALUE. */
 static const char *end_of_path(const char *text) {
   const char *end = text;
-  for (const char *word = text; *word; word = end + strspn(end, WORDS_BLANKS)) {
+  for (const char *word = text; *word; word = end + strspn(end, NUMBERS_BLANKS)) {
     if (word > text && key_values_key(word) > 0) break;
-    end = word + strcspn(word, WORDS_BLANKS);
+    end = word + strcspn(word, NUMBERS_BLANKS);
   }
   return end;
 }
@@ -27,17 +27,17 @@ static enum result check(const char *what, const struct light_text *light, struc
 
 enum result light_text_parse(const char *text, struct light_text *light, struct error *error) {
   *light = (struct light_text){.scale = 1, .gain = 1, .up = {0, 1, 0}};
-  struct word_key keys[] = {
+  struct key_value keys[] = {
       {"at=X,Y,Z", 3, light->at, false},    {"toward=X,Y,Z", 3, light->toward, false},
       {"up=X,Y,Z", 3, light->up, false},    {"matrix=12 numbers", 12, light->matrix[0], false},
       {"scale=S", 1, &light->scale, false}, {"gain=G", 1, &light->gain, false}};
   char what[256];
   snprintf(what, sizeof what, "--light %s", text);
-  text += strspn(text, WORDS_BLANKS);
+  text += strspn(text, NUMBERS_BLANKS);
   const char *end = end_of_path(text);
   if (end == text) return result_fail(error, RESULT_BAD, "%s: names no slab", what);
   light->path = strndup(text, (size_t)(end - text));
-  if (!light->path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!light->path) return result_no_memory(error);
   enum result result = key_values_parse(what, end, keys, sizeof keys / sizeof *keys, error);
   light->has_at = keys[0].seen;
   light->has_toward = keys[1].seen;

@@ -1,5 +1,5 @@
-/* closed_form.h - a micro light's light in closed form (the paper's section 4.1 calls it too
- * complicated for practical use). Matte receivers, no occluders, not cut by the tangent plane.
+/* closed_form.h - the sum over micro lights in closed form (the paper's section 4.1 calls it too
+ * complicated for practical use), for matte receivers.
  *
  * Radiance is quadratic along each axis, so the integral is a sum of the moments
  *     I_ab = iint x^a y^b/(1 + x^2 + y^2)^2 dx dy,  a <= 3, b <= 2 or a <= 2, b <= 3,
@@ -9,16 +9,13 @@
 #ifndef CLOSED_FORM_H
 #define CLOSED_FORM_H
 
-#include <stdbool.h>
+#include "microlight/row_sum.h"
 
-#include "microlight/strips.h"
-
-/* Narrow, remote or oblong micro lights cancel away too many digits: use a Gauss rule. */
-bool closed_form_applies(const struct strip *u, const struct strip *v);
-
-/* Weights of the samples, [sample along v][sample along u] in rule.h's order, for the
- * irradiance of a receiver with the unit normal. */
-void closed_form_weights(const double normal[3], const struct strip *u, const struct strip *v,
-                         double weight[4][4]);
+/* Adds the irradiance of all micro lights between the strips, for matte receivers. Where the
+ * closed form does not apply, or the tangent plane cuts a micro light, Gauss rules to 1e-11 take
+ * over. `nodes` is scratch. */
+enum result closed_form_sum(const struct seen_page *seen, const struct strips strips[2],
+                            struct rule_nodes nodes[2], double irradiance[3],
+                            struct row_sum_counts *counts, struct error *error);
 
 #endif

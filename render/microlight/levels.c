@@ -1,4 +1,3 @@
-/* levels.c - see levels.h. */
 #include "microlight/levels.h"
 
 #include <math.h>
@@ -35,7 +34,7 @@ enum result levels_build(const struct light_page *page, struct levels *levels,
   enum result result = RESULT_OK;
   bool more = true;
   *levels = (struct levels){.page = calloc(MOST, sizeof *levels->page)};
-  if (!levels->page) return result_fail(error, RESULT_MEMORY, "out of memory for levels");
+  if (!levels->page) return result_no_memory(error);
   for (const struct light_page *below = page; result == RESULT_OK && levels->count < MOST;) {
     result = halve(below, &levels->page[levels->count], &more, error);
     if (result != RESULT_OK || !more) break;

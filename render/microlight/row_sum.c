@@ -1,31 +1,38 @@
-/* row_sum.c - see row_sum.h. */
 #include "microlight/row_sum.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "base/simd.h"
 #include "microlight/tangent.h"
 
 enum { MATTE, GLOSS };
 
-void row_sum_free(struct row_sum *cells) {
-  for (int axis = 0; axis < 2; ++axis) rule_nodes_free(&cells->nodes[axis]);
-  free(cells->columns);
-  free(cells->offset);
-  *cells = (struct row_sum){0};
+void row_sum_free(struct row_sum *sum) {
+  for (int axis = 0; axis < 2; ++axis) rule_nodes_free(&sum->nodes[axis]);
+  free(sum->columns);
+  free(sum->offset);
+  free(sum->kernel);
+  free(sum->factor);
+  *sum = (struct row_sum){0};
 }
 
-static enum result reserve_columns(struct row_sum *cells, struct error *error) {
-  int count = cells->nodes[0].strips.count;
-  if (count <= cells->column_room) return RESULT_OK;
-  struct taps_column *columns = realloc(cells->columns, (size_t)count * sizeof *columns);
-  if (columns) cells->columns = columns;
-  int(*offset)[2] = realloc(cells->offset, (size_t)count * sizeof *offset);
-  if (offset) cells->offset = offset;
-  if (!columns || !offset) return result_fail(error, RESULT_MEMORY, "out of memory");
-  cells->column_room = count;
+static enum result reserve(struct row_sum *sum, struct error *error) {
+  int count = sum->nodes[0].strips.count;
+  size_t nodes = ((size_t)sum->nodes[0].count + 2 * SIMD_LANES) / SIMD_LANES * SIMD_LANES;
+  if (!array_reserve(&sum->columns, &sum->column_room, count, sizeof *sum->columns) ||
+      !array_reserve(&sum->offset, &sum->offset_room, count, sizeof *sum->offset))
+    return result_no_memory(error);
+  if (nodes > sum->kernel_room) {
+    free(sum->kernel);
+    free(sum->factor);
+    sum->kernel = calloc(nodes * RULE_LARGEST_ORDER, sizeof *sum->kernel);
+    sum->factor = calloc(nodes, sizeof *sum->factor);
+    sum->kernel_room = sum->kernel && sum->factor ? nodes : 0;
+    if (!sum->kernel_room) return result_no_memory(error);
+  }
   return RESULT_OK;
 }
 
@@ -35,63 +42,34 @@ static double reach(const struct strips *strips) {
   return sum;
 }
 
-static void set_columns(struct row_sum *cells) {
-  const struct rule_nodes *u = &cells->nodes[0];
+static void set_columns(struct row_sum *sum) {
+  const struct rule_nodes *u = &sum->nodes[0];
   for (int c = 0; c < u->strips.count; ++c) {
-    seen_page_columns(&cells->seen, &u->strips.strip[c].taps, cells->offset[c]);
-    if (cells->kind == ROW_SUM_GAUSS) continue;
+    seen_page_columns(sum->seen, &u->strips.strip[c].taps, sum->offset[c]);
+    if (sum->rule == RULE_GAUSS) continue;
     double weight[4];
-    for (int tap = 0; tap < 4; ++tap) weight[tap] = u->weight[c][tap] / cells->unit[0];
-    taps_set_column(&cells->columns[c], cells->offset[c], weight);
+    for (int tap = 0; tap < 4; ++tap) weight[tap] = u->weight[c][tap] / sum->unit[0];
+    taps_set_column(&sum->columns[c], sum->offset[c], weight);
   }
 }
 
-enum result row_sum_prepare(struct row_sum *cells, const struct seen_page *seen,
-                            const struct strips strips[2], enum row_sum_kind kind, enum rule rule,
-                            const struct rule_orders *orders, struct error *error) {
-  cells->seen = *seen;
-  cells->kind = kind;
-  cells->row = 0;
-  memset(cells->rgb, 0, sizeof cells->rgb);
+/* Places the nodes. */
+static enum result prepare(struct row_sum *sum, const struct strips strips[2],
+                           const struct rule_orders *orders, struct error *error) {
   enum result result = RESULT_OK;
-  double low[2], high[2], range[2];
+  double range[2];
+  memset(sum->rgb, 0, sizeof sum->rgb);
   for (int axis = 0; axis < 2 && result == RESULT_OK; ++axis) {
-    const struct strips *along = &strips[axis];
-    low[axis] = along->strip[0].low;
-    high[axis] = along->strip[along->count - 1].high;
-    cells->unit[axis] = kind == ROW_SUM_GAUSS ? 1 : reach(along);
-    if (axis == 1 && kind != ROW_SUM_GAUSS) cells->unit[axis] *= seen->page->unit;
-    double pole = fmin(rule_pole(&strips[1 - axis]), kernel_pole(&seen->kernel));
-    result = rule_place(along, rule, orders, pole, &cells->nodes[axis], error);
+    sum->unit[axis] = sum->rule == RULE_GAUSS ? 1 : reach(&strips[axis]);
+    if (axis == 1 && sum->rule != RULE_GAUSS) sum->unit[axis] *= sum->seen->page->unit;
+    double pole = fmin(rule_pole(&strips[1 - axis]), kernel_pole(&sum->seen->kernel));
+    result = rule_place(&strips[axis], sum->rule, orders, pole, &sum->nodes[axis], error);
   }
-  if (result == RESULT_OK) result = reserve_columns(cells, error);
+  if (result == RESULT_OK) result = reserve(sum, error);
   if (result != RESULT_OK) return result;
-  kernel_heights(&seen->kernel, low, high, range);
-  cells->above = range[0] >= 0;
-  set_columns(cells);
-  return RESULT_OK;
-}
-
-void row_sum_scratch_free(struct row_sum_scratch *scratch) {
-  free(scratch->kernel);
-  free(scratch->factor);
-  *scratch = (struct row_sum_scratch){0};
-}
-
-static size_t padded(size_t count) {
-  return (count + 2 * SIMD_LANES) / SIMD_LANES * SIMD_LANES;
-}
-
-enum result row_sum_scratch_reserve(struct row_sum_scratch *scratch, const struct row_sum *cells,
-                                    struct error *error) {
-  size_t room = padded((size_t)cells->nodes[0].count);
-  if (room <= scratch->room) return RESULT_OK;
-  row_sum_scratch_free(scratch);
-  scratch->kernel = calloc(room * RULE_LARGEST_ORDER, sizeof *scratch->kernel);
-  scratch->factor = calloc(room, sizeof *scratch->factor);
-  if (!scratch->kernel || !scratch->factor)
-    return result_fail(error, RESULT_MEMORY, "out of memory");
-  scratch->room = room;
+  seen_page_heights(sum->seen, strips, range);
+  sum->above = range[0] >= 0;
+  set_columns(sum);
   return RESULT_OK;
 }
 
@@ -118,11 +96,11 @@ static int boundary(const struct strips *strips, double along, bool at_high, dou
   return low;
 }
 
-static struct span find_span(const struct row_sum *cells, const struct strip *row) {
-  const struct strips *strips = &cells->nodes[0].strips;
-  const double *n = cells->seen.kernel.normal;
+static struct span find_span(const struct row_sum *sum, const struct strip *row) {
+  const struct strips *strips = &sum->nodes[0].strips;
+  const double *n = sum->seen->kernel.normal;
   int count = strips->count;
-  if (cells->above || cells->kind == ROW_SUM_VIEWS) return (struct span){{0, count}, {0, 0}};
+  if (sum->above || sum->rule == RULE_VIEWS) return (struct span){{0, count}, {0, 0}};
   double least = fmin(n[1] * row->low, n[1] * row->high) - n[2];
   double most = fmax(n[1] * row->low, n[1] * row->high) - n[2];
   if (n[0] >= 0) {
@@ -135,73 +113,71 @@ static struct span find_span(const struct row_sum *cells, const struct strip *ro
   return (struct span){{0, full}, {full, lit}};
 }
 
-static void sum_single(struct row_sum *cells, const struct span *span, const float *const rows[4],
-                       struct row_sum_scratch *scratch, struct row_sum_counts *counts) {
-  const struct rule_nodes *u = &cells->nodes[0], *v = &cells->nodes[1];
-  const struct kernel *kernel = &cells->seen.kernel;
+static void sum_single(struct row_sum *sum, const struct span *span, const float *const rows[4],
+                       struct row_sum_counts *counts) {
+  const struct rule_nodes *u = &sum->nodes[0], *v = &sum->nodes[1];
+  const struct kernel *kernel = &sum->seen->kernel;
   int first = span->full[0], count = span->full[1] - first;
-  double weight[4], y = v->at[cells->row];
-  for (int tap = 0; tap < 4; ++tap) weight[tap] = v->weight[cells->row][tap] / cells->unit[1];
+  double weight[4], y = v->at[sum->row];
+  for (int tap = 0; tap < 4; ++tap) weight[tap] = v->weight[sum->row][tap] / sum->unit[1];
   for (int light = MATTE; light <= (kernel->shininess > 0 ? GLOSS : MATTE); ++light) {
-    (light == GLOSS ? kernel_gloss : kernel_matte)(kernel, u->at + first, y, count,
-                                                   scratch->kernel);
-    for (int c = 0; c < count; ++c) scratch->factor[c] = (float)scratch->kernel[c];
-    if (cells->kind == ROW_SUM_VIEWS)
-      for (int c = 0; c < count; ++c) scratch->factor[c] = fmaxf(scratch->factor[c], 0);
-    taps_sum_row(rows, weight, cells->columns + first, scratch->factor, count, cells->rgb[light]);
+    (light == GLOSS ? kernel_gloss : kernel_matte)(kernel, u->at + first, y, count, sum->kernel);
+    for (int c = 0; c < count; ++c) sum->factor[c] = (float)sum->kernel[c];
+    if (sum->rule == RULE_VIEWS)
+      for (int c = 0; c < count; ++c) sum->factor[c] = fmaxf(sum->factor[c], 0);
+    taps_sum_row(rows, weight, sum->columns + first, sum->factor, count, sum->rgb[light]);
     counts->nodes += (uint64_t)count;
   }
 }
 
-static void sum_gauss(struct row_sum *cells, const struct span *span, const float *const rows[4],
-                      struct row_sum_scratch *scratch, struct row_sum_counts *counts) {
-  const struct rule_nodes *u = &cells->nodes[0], *v = &cells->nodes[1];
-  const struct kernel *kernel = &cells->seen.kernel;
+static void sum_gauss(struct row_sum *sum, const struct span *span, const float *const rows[4],
+                      struct row_sum_counts *counts) {
+  const struct rule_nodes *u = &sum->nodes[0], *v = &sum->nodes[1];
+  const struct kernel *kernel = &sum->seen->kernel;
   int first = u->first[span->full[0]], count = u->first[span->full[1]] - first;
-  int row = v->first[cells->row], row_nodes = v->first[cells->row + 1] - row;
+  int row = v->first[sum->row], row_nodes = v->first[sum->row + 1] - row;
   const double *at[RULE_LARGEST_ORDER];
-  const struct taps_cells sum = {rows,
-                                 row_nodes,
-                                 (const double(*)[4])v->weight + row,
-                                 at,
-                                 u->first[span->full[0]],
-                                 (const int(*)[2])cells->offset,
-                                 u->first,
-                                 (const double(*)[4])u->weight};
+  const struct taps_cells cells = {rows,
+                                   row_nodes,
+                                   (const double(*)[4])v->weight + row,
+                                   at,
+                                   u->first[span->full[0]],
+                                   (const int(*)[2])sum->offset,
+                                   u->first,
+                                   (const double(*)[4])u->weight};
   for (int light = MATTE; light <= (kernel->shininess > 0 ? GLOSS : MATTE); ++light) {
     for (int h = 0; h < row_nodes; ++h) {
-      double *out = scratch->kernel + (size_t)h * scratch->room;
+      double *out = sum->kernel + (size_t)h * sum->kernel_room;
       (light == GLOSS ? kernel_gloss : kernel_matte)(kernel, u->at + first, v->at[row + h], count,
                                                      out);
       at[h] = out;
     }
-    taps_sum_cells(&sum, span->full[0], span->full[1], cells->rgb[light]);
+    taps_sum_cells(&cells, span->full[0], span->full[1], sum->rgb[light]);
     counts->nodes += (uint64_t)count * (uint64_t)row_nodes;
   }
 }
 
 /* Micro lights that the tangent plane cuts: a few a row. */
-static void sum_cut(struct row_sum *cells, const struct span *span, const float *const rows[4],
+static void sum_cut(struct row_sum *sum, const struct span *span, const float *const rows[4],
                     struct row_sum_counts *counts) {
-  const struct rule_nodes *u = &cells->nodes[0], *v = &cells->nodes[1];
-  const struct strip *row = &v->strips.strip[cells->row];
-  const struct kernel *kernel = &cells->seen.kernel;
-  double scale = 1 / (cells->unit[0] * cells->unit[1]);
+  const struct rule_nodes *u = &sum->nodes[0], *v = &sum->nodes[1];
+  const struct strip *row = &v->strips.strip[sum->row];
+  const struct kernel *kernel = &sum->seen->kernel;
+  double scale = 1 / (sum->unit[0] * sum->unit[1]);
   for (int c = span->cut[0]; c < span->cut[1]; ++c) {
     double weight[4][4] = {{0}}, gloss[4][4] = {{0}};
-    int nodes = u->first[c + 1] - u->first[c],
-        others = v->first[cells->row + 1] - v->first[cells->row];
+    int nodes = u->first[c + 1] - u->first[c], others = v->first[sum->row + 1] - v->first[sum->row];
     int order = (nodes > others ? nodes : others) + 2;
     if (order > RULE_LARGEST_ORDER) order = RULE_LARGEST_ORDER;
     counts->nodes += (uint64_t)tangent_weights(kernel, &u->strips.strip[c], row, order, weight,
                                                kernel->shininess > 0 ? gloss : NULL);
     double rgb[2][3] = {{0}};
-    taps_sum_cell(rows, cells->offset[c], (const double(*)[4])weight, rgb[MATTE]);
+    taps_sum_cell(rows, sum->offset[c], (const double(*)[4])weight, rgb[MATTE]);
     if (kernel->shininess > 0)
-      taps_sum_cell(rows, cells->offset[c], (const double(*)[4])gloss, rgb[GLOSS]);
+      taps_sum_cell(rows, sum->offset[c], (const double(*)[4])gloss, rgb[GLOSS]);
     for (int k = 0; k < 3; ++k) {
-      cells->rgb[MATTE][k] += rgb[MATTE][k] * scale;
-      cells->rgb[GLOSS][k] += rgb[GLOSS][k] * scale;
+      sum->rgb[MATTE][k] += rgb[MATTE][k] * scale;
+      sum->rgb[GLOSS][k] += rgb[GLOSS][k] * scale;
     }
   }
 }
@@ -232,28 +208,35 @@ static void trim(const struct strips *strips, const struct lit_row *lit, int ran
   *black += (uint64_t)(before - (range[1] - range[0]));
 }
 
-void row_sum_add_row(struct row_sum *cells, struct row_sum_scratch *scratch,
-                     struct row_sum_counts *counts) {
-  const struct strip *row = &cells->nodes[1].strips.strip[cells->row];
-  const struct lit_row lit = find_lit(&cells->seen, &row->taps);
-  struct span span = find_span(cells, row);
+static void add_row(struct row_sum *sum, struct row_sum_counts *counts) {
+  const struct strip *row = &sum->nodes[1].strips.strip[sum->row];
+  const struct lit_row lit = find_lit(sum->seen, &row->taps);
+  struct span span = find_span(sum, row);
   const float *rows[4];
-  if (cells->skip_black) {
-    trim(&cells->nodes[0].strips, &lit, span.full, &counts->black);
-    trim(&cells->nodes[0].strips, &lit, span.cut, &counts->black);
+  if (sum->skip_black) {
+    trim(&sum->nodes[0].strips, &lit, span.full, &counts->black);
+    trim(&sum->nodes[0].strips, &lit, span.cut, &counts->black);
   }
-  seen_page_rows(&cells->seen, &row->taps, rows);
+  seen_page_rows(sum->seen, &row->taps, rows);
   if (span.full[1] > span.full[0])
-    (cells->kind == ROW_SUM_GAUSS ? sum_gauss : sum_single)(cells, &span, rows, scratch, counts);
-  sum_cut(cells, &span, rows, counts);
+    (sum->rule == RULE_GAUSS ? sum_gauss : sum_single)(sum, &span, rows, counts);
+  sum_cut(sum, &span, rows, counts);
   counts->microlights +=
       (uint64_t)(span.full[1] - span.full[0]) + (uint64_t)(span.cut[1] - span.cut[0]);
-  ++cells->row;
 }
 
-void row_sum_result(const struct row_sum *cells, double irradiance[3], double gloss[3]) {
+enum result row_sum_light(struct row_sum *sum, const struct seen_page *seen,
+                          const struct strips strips[2], enum rule rule,
+                          const struct rule_orders *orders, double irradiance[3], double gloss[3],
+                          struct row_sum_counts *counts, struct error *error) {
+  sum->seen = seen;
+  sum->rule = rule;
+  enum result result = prepare(sum, strips, orders, error);
+  if (result != RESULT_OK) return result;
+  for (sum->row = 0; sum->row < sum->nodes[1].strips.count; ++sum->row) add_row(sum, counts);
   for (int c = 0; c < 3; ++c) {
-    irradiance[c] = cells->rgb[MATTE][c] * cells->unit[0] * cells->unit[1];
-    gloss[c] = cells->rgb[GLOSS][c] * cells->unit[0] * cells->unit[1];
+    irradiance[c] = sum->rgb[MATTE][c] * sum->unit[0] * sum->unit[1];
+    gloss[c] = sum->rgb[GLOSS][c] * sum->unit[0] * sum->unit[1];
   }
+  return RESULT_OK;
 }

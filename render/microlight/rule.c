@@ -1,4 +1,3 @@
-/* rule.c - see rule.h. */
 #include "microlight/rule.h"
 
 #include <math.h>
@@ -6,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "base/array.h"
 #include "base/simd.h"
 #include "slab/slab_gauss.h"
 
@@ -34,7 +34,9 @@ struct rule_orders rule_orders(double tolerance) {
   return orders;
 }
 
-double rule_ellipse(const struct strip *strip, double pole) {
+/* The ellipse with the strip's ends as foci through the poles +-i*pole: the sum of its half axes
+ * in units of half the focal distance. */
+static double find_ellipse(const struct strip *strip, double pole) {
   double half = strip->width / 2, middle = (strip->low + half) / half, height = pole / half;
   double square = height * height;
   double sum =
@@ -89,23 +91,13 @@ static void middle_hats(const struct strip *strip, bool means, double weight[4])
 }
 
 static enum result make_room(struct rule_nodes *nodes, int more, struct error *error) {
-  if (nodes->count + more > nodes->room) {
-    int room = 2 * nodes->room + more + 256;
-    double *at = realloc(nodes->at, (size_t)(room + SIMD_LANES) * sizeof *at);
-    if (at) nodes->at = at;
-    double(*weight)[4] = realloc(nodes->weight, (size_t)room * sizeof *weight);
-    if (weight) nodes->weight = weight;
-    if (!at || !weight) return result_fail(error, RESULT_MEMORY, "out of memory");
-    nodes->room = room;
-  }
-  if (nodes->strips.count + 2 > nodes->first_room) {
-    int room = 2 * nodes->first_room + 128;
-    int *first = realloc(nodes->first, (size_t)room * sizeof *first);
-    if (!first) return result_fail(error, RESULT_MEMORY, "out of memory");
-    nodes->first = first;
-    nodes->first_room = room;
-  }
-  return RESULT_OK;
+  int count = nodes->count + more;
+  if (array_reserve(&nodes->at, &nodes->room, count + SIMD_LANES, sizeof *nodes->at) &&
+      array_reserve(&nodes->weight, &nodes->weight_room, count, sizeof *nodes->weight) &&
+      array_reserve(&nodes->first, &nodes->first_room, nodes->strips.count + 2,
+                    sizeof *nodes->first))
+    return RESULT_OK;
+  return result_no_memory(error);
 }
 
 /* Appends a strip, and makes room for its nodes. */
@@ -154,7 +146,7 @@ static double cut(const struct strip *strip, double pole) {
 
 static enum result place_gauss(struct rule_nodes *nodes, const struct strip *strip,
                                const struct rule_orders *orders, double pole, struct error *error) {
-  double ellipse = rule_ellipse(strip, pole);
+  double ellipse = find_ellipse(strip, pole);
   int order = 2;
   while (order <= RULE_LARGEST_ORDER && ellipse < orders->ellipse[order]) ++order;
   double middle = order > RULE_LARGEST_ORDER ? cut(strip, pole) : strip->low;

@@ -1,6 +1,7 @@
-/* rule.h - rules for a micro light, along one axis; a micro light's rule is the product of
- * two. (facts of the numerics: the hat functions of uv and st times a smooth kernel with its
- * nearest poles at +-i sqrt(1 + y^2), y the slope along the other axis.)
+/* rule.h - quadrature rules for a micro light, along one axis; a micro light's rule is the
+ * product of two. What they integrate is the product of the hat functions of uv and st, linear
+ * each, and of the kernel (kernel.h), 1/(1 + x^2 + y^2)^2 times a linear function of the slopes:
+ * it is smooth, with its nearest poles at x = +-i sqrt(1 + y^2), y the slope along the other axis.
  *
  * A node has four weights, those of the samples (near, far), (near, far + up), (near + up, far)
  * and (near + up, far + up) of its strip; the width of what it stands for is in them. */
@@ -13,43 +14,41 @@
 enum rule {
   RULE_MIDPOINT, /* one node: the hats in the middle */
   RULE_PI,       /* one node: the hats' exact means */
-  RULE_GAUSS     /* as many as the tolerance needs; strips are split where 12 are too few */
+  RULE_GAUSS,    /* as many as the tolerance needs; strips are split where 12 are too few */
+  RULE_VIEWS     /* as RULE_MIDPOINT, of strips that are views (strips_find_views) */
 };
 
 enum { RULE_LARGEST_ORDER = 12 };
 
-/* For each order the least Bernstein ellipse with which it meets the tolerance:
- * n >= ln(16/tolerance)/(2 ln rho) + 1.5, from 2 nodes on. */
+/* For each order n the smallest Bernstein ellipse with which it meets the tolerance. The error of
+ * Gauss's rule for a function that is analytic inside the ellipse with the parameter rho falls as
+ * rho^(-2 n) (Trefethen, "Is Gauss quadrature better than Clenshaw-Curtis?", SIAM Review 2008,
+ * theorem 4.5): n >= ln(16/tolerance)/(2 ln rho) + 1.5, from 2 nodes on. */
 struct rule_orders {
   double ellipse[RULE_LARGEST_ORDER + 1];
 };
 
 struct rule_orders rule_orders(double tolerance);
 
-/* The ellipse with the strip's ends as foci through the poles +-i*pole: the sum of its half axes
- * in units of half the focal distance. */
-double rule_ellipse(const struct strip *strip, double pole);
-
 /* The strips of an axis with their nodes. `first` has count + 1 entries: nodes first[k] to
  * first[k+1] belong to strip k. */
 struct rule_nodes {
   struct strips strips;
-  int *first;
-  int count, room;
-  double *at;          /* slopes; SIMD_LANES more may be read */
-  double (*weight)[4]; /* of the samples */
-  int first_room;
+  int *first, count;
+  double *at;          /* [count]: slopes; SIMD_LANES more may be read */
+  double (*weight)[4]; /* [count]: of the samples */
+  int first_room, room, weight_room;
 };
 
 void rule_nodes_free(struct rule_nodes *nodes);
 
-/* What RULE_PI may err by, relative to the receiver's light: it takes the kernel from the middle
- * of a micro light. Over a strip of half width h the kernel's curvature changes the mean by at
- * most 5/3 h^2, and its slope by about h where radiance rises from nothing within the strip, as
- * all of what is seen can at the rim of a beam (1.15 h was met; where many strips share in the
- * light, a tenth of that). A highlight is about exp(-m x^2/8) for the exponent m: it adds its
- * own curvature and slope. And the cosine rises by up to `rise` of what it is in the middle, 2
- * where it rises from nothing: a quarter of that, again where radiance does. */
+/* The predicted error of RULE_PI, relative to the receiver's light: it takes the kernel from the
+ * middle of a micro light. Over a strip of half width h the kernel's curvature changes the mean by
+ * at most 5/3 h^2; its slope by about h where radiance rises from 0 within the strip, as all that
+ * is seen may do at the rim of a beam (1.15 h was measured; a tenth of that where many strips
+ * share in the light). A highlight, about exp(-m x^2/8) for the exponent m, adds its own curvature
+ * and slope. The cosine changes by up to `rise` of its value in the middle, 2 where it rises from
+ * 0: a quarter of that, again where radiance does. */
 double rule_pi_error(double widest, double rise, double shininess);
 
 /* Distance of the poles from the axis, given the strips along the other one. */

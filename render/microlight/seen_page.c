@@ -1,4 +1,3 @@
-/* seen_page.c - see seen_page.h. */
 #include "microlight/seen_page.h"
 
 #include "base/vector.h"
@@ -18,6 +17,28 @@ bool seen_page_find(const struct light_page *page, const struct receiver *receiv
   }
   seen->kernel.shininess = receiver->shininess;
   return true;
+}
+
+void seen_page_middle(const struct seen_page *seen, double middle[2]) {
+  for (int axis = 0; axis < 2; ++axis) middle[axis] = -seen->foot[axis] / seen->height;
+}
+
+void seen_page_aperture(const struct seen_page *seen, double low[2], double high[2]) {
+  const double per_height = 1 / seen->height;
+  for (int axis = 0; axis < 2; ++axis) {
+    low[axis] = (-seen->page->axes[axis].half - seen->foot[axis]) * per_height;
+    high[axis] = (seen->page->axes[axis].half - seen->foot[axis]) * per_height;
+  }
+}
+
+void seen_page_heights(const struct seen_page *seen, const struct strips strips[2],
+                       double range[2]) {
+  double low[2], high[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    low[axis] = strips[axis].strip[0].low;
+    high[axis] = strips[axis].strip[strips[axis].count - 1].high;
+  }
+  kernel_heights(&seen->kernel, low, high, range);
 }
 
 enum result seen_page_strips(const struct seen_page *seen, bool each_view, struct strips strips[2],

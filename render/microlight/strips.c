@@ -1,4 +1,4 @@
-/* strips.c - see strips.h. Line p of n samples is the p-th sample, line -1 and line n are the
+/* strips.c - line p of n samples is the p-th sample, line -1 and line n are the
  * ends of the axis; piece p lies between the lines p-1 and p. */
 #include "microlight/strips.h"
 
@@ -6,30 +6,27 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/array.h"
+
 void strips_free(struct strips *strips) {
   free(strips->strip);
   *strips = (struct strips){0};
 }
 
 enum result strips_append(struct strips *strips, const struct strip *strip, struct error *error) {
-  if (strips->count == strips->room) {
-    int room = strips->room ? 2 * strips->room : 64;
-    struct strip *grown = realloc(strips->strip, (size_t)room * sizeof *grown);
-    if (!grown) return result_fail(error, RESULT_MEMORY, "out of memory");
-    strips->strip = grown;
-    strips->room = room;
-  }
+  if (!array_reserve(&strips->strip, &strips->room, strips->count + 1, sizeof *strip))
+    return result_no_memory(error);
   strips->strip[strips->count++] = *strip;
   return RESULT_OK;
 }
 
-/* Inline, where fmin is a call; there are no NaNs here. */
+/* Inlined, unlike fmin; there are no NaNs. */
 static inline double lesser(double a, double b) {
   return a < b ? a : b;
 }
 
-/* An axis as one receiver sees it. Slopes x are relative to one of its rays: at the slope `base`,
- * through the points a and s of the axes. */
+/* An axis as one receiver sees it. Slopes x are relative to one ray, which has the slope `base` and
+ * passes through a of the aperture and s of the st plane. */
 struct sight {
   const struct light_axis *axis;
   double q, z, rate; /* s changes by `rate` x */
@@ -73,14 +70,10 @@ static double far_weight(const struct sight *sight, const struct strip_taps *tap
   return within(from_line / sight->axis->far_step);
 }
 
-static void set_near(struct strip_taps *taps, int piece, int count) {
-  taps->near = piece > 0 ? piece - 1 : 0;
-  taps->near_up = piece > 0 && piece < count;
-}
-
-static void set_far(struct strip_taps *taps, int piece, int count) {
-  taps->far = piece > 0 ? piece - 1 : 0;
-  taps->far_up = piece > 0 && piece < count;
+/* The samples on both sides of a piece between the lines of `count` samples. */
+static void set_taps(int piece, int count, int *lower, int *up) {
+  *lower = piece > 0 ? piece - 1 : 0;
+  *up = piece > 0 && piece < count;
 }
 
 static struct sight make_sight(const struct light_axis *axis, double q, double z) {
@@ -88,8 +81,8 @@ static struct sight make_sight(const struct light_axis *axis, double q, double z
   return (struct sight){.axis = axis, .q = q, .z = height, .rate = axis->kappa * height - 1};
 }
 
-/* Slopes from the ray through a, and through s, on; the other of the two is found from what loses
- * the fewest digits. */
+/* Choose the ray through a, or through s; the other of the two by the formula that cancels the
+ * fewest digits. */
 static void start_at_near(struct sight *sight, double a) {
   sight->base = (a - sight->q) / sight->z;
   sight->a = a;
@@ -104,7 +97,7 @@ static void start_at_far(struct sight *sight, double s) {
   sight->a = near ? sight->q + sight->z * sight->base : (s + sight->base) / kappa;
 }
 
-/* The piece that holds s, for a receiver on the st plane, who sees no other; -1 outside. */
+/* The piece that holds s, the only one that a receiver on the st plane sees; -1 outside. */
 static int piece_at(const struct light_axis *axis, double s) {
   if (!(s >= axis->far_low && s <= axis->far_high)) return -1;
   int piece = 0;
@@ -152,8 +145,8 @@ enum result strips_find(const struct light_axis *axis, double q, double z, struc
     double end = lesser(lesser(near_end, far_end), high);
     if (end > low) {
       struct strip strip = {.low = sight.base + low, .high = sight.base + end, .width = end - low};
-      set_near(&strip.taps, near, axis->near_count);
-      set_far(&strip.taps, far, axis->far_count);
+      set_taps(near, axis->near_count, &strip.taps.near, &strip.taps.near_up);
+      set_taps(far, axis->far_count, &strip.taps.far, &strip.taps.far_up);
       for (int side = 0; side < 2; ++side) {
         double x = side ? end : low;
         strip.near_weight[side] = near_weight(&sight, &strip.taps, x);
@@ -173,7 +166,7 @@ enum result strips_find(const struct light_axis *axis, double q, double z, struc
   return RESULT_OK;
 }
 
-/* Beyond it, its square is too large for a number. */
+/* The square of a larger width overflows. */
 static const double widest_view = 1e150;
 
 enum result strips_find_views(const struct light_axis *axis, double q, double z,
@@ -189,7 +182,7 @@ enum result strips_find_views(const struct light_axis *axis, double q, double z,
                           .high = sight.base + width / 2,
                           .width = width,
                           .taps = {.near = i}};
-    set_far(&strip.taps, piece, axis->far_count);
+    set_taps(piece, axis->far_count, &strip.taps.far, &strip.taps.far_up);
     for (int side = 0; side < 2; ++side)
       strip.far_weight[side] = far_weight(&sight, &strip.taps, 0);
     enum result result = strips_append(strips, &strip, error);

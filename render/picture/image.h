@@ -13,16 +13,13 @@
 #include "gather/gather.h"
 #include "gl/gl_sum.h"
 #include "picture/shade.h"
-#include "scene/camera.h"
 
-enum { IMAGE_TILE = 8, IMAGE_MOST_SIZE = 65536, IMAGE_MOST_SAMPLES = 256 };
+enum { IMAGE_TILE = 8, IMAGE_MOST_SAMPLES = 256 };
 
 struct image_settings {
-  struct shade shade;
-  struct camera camera;
+  struct shade shade; /* sizes: 1..NUMBERS_MOST_SIZE */
   struct gather_settings gather;
   const struct gl_sum_settings *gl; /* for the method gl, which takes the place of `gather` */
-  int width, height;                /* 1..IMAGE_MOST_SIZE */
   int samples;                      /* N, 1..IMAGE_MOST_SAMPLES */
   int threads;                      /* >= 1 */
   tiles_progress *progress;         /* may be NULL */
@@ -48,13 +45,9 @@ struct image_report {
 enum result image_render(const struct image_settings *settings, struct picture *picture,
                          struct image_report *report, struct error *error);
 
-/* Of image_gl.c: the same by the method gl; image_render calls it. Allocates nothing in the
- * picture. */
+/* The same by the method gl (image_gl.c), into a picture that is allocated; image_render calls
+ * it. */
 enum result image_render_gl(const struct image_settings *settings, struct picture *picture,
                             struct image_report *report, struct error *error);
-
-/* Ray number `sample` of a pixel. */
-void image_trace(const struct image_settings *settings, int x, int y, int sample,
-                 struct shade_hit *hit);
 
 #endif

@@ -1,4 +1,3 @@
-/* preview.c - see preview.h. */
 #include "picture/preview.h"
 
 #include <errno.h>
@@ -22,7 +21,7 @@ static int by_value(const void *a, const void *b) {
 enum result preview_exposure(const struct picture *picture, double *white, struct error *error) {
   size_t count = (size_t)picture->width * (size_t)picture->height;
   float *brightest = malloc(count * sizeof *brightest);
-  if (!brightest) return result_fail(error, RESULT_MEMORY, "out of memory for the exposure");
+  if (!brightest) return result_no_memory(error);
   for (size_t k = 0; k < count; ++k) {
     const float *rgb = picture->rgb + 3 * k;
     float most = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2]));
@@ -36,12 +35,12 @@ enum result preview_exposure(const struct picture *picture, double *white, struc
   return RESULT_OK;
 }
 
-/* What libpng calls back. */
+/* Where libpng writes to, and its error. */
 struct sink {
   struct output output;
   uint64_t written;
   char trouble[160];
-  jmp_buf out;
+  jmp_buf out; /* libpng longjmps here on error */
 };
 
 static void take_bytes(png_structp png, png_bytep bytes, size_t count) {
@@ -65,7 +64,7 @@ static void ignore_warning(png_structp png, png_const_charp text) {
   (void)png, (void)text;
 }
 
-/* IEC 61966-2-1. */
+/* The sRGB curve, IEC 61966-2-1. */
 static png_byte encode(double value) {
   if (!(value > 0)) return 0;
   if (value >= 1) return 255;
@@ -85,7 +84,7 @@ static void put_texts(png_structp png, png_infop info, double white, const char 
   free(copy);
 }
 
-/* Comes back early, by take_error, if libpng is not content. */
+/* Does not return where libpng fails: take_error longjmps. */
 static void put_picture(png_structp png, png_infop info, const struct picture *picture,
                         double white, const char *comment, png_byte *row) {
   png_set_IHDR(png, info, (png_uint_32)picture->width, (png_uint_32)picture->height, 8,

@@ -1,4 +1,3 @@
-/* shade.c - see shade.h. */
 #include "picture/shade.h"
 
 #include <math.h>
@@ -37,12 +36,15 @@ static void shade_surface(const struct shade *shade, const struct occlusion_hit 
   receiver->index = index;
 }
 
-void shade_ray(const struct shade *shade, const double origin[3], const double direction[3],
-               uint64_t index, struct shade_hit *hit) {
+void shade_ray(const struct shade *shade, double x, double y, uint64_t index,
+               struct shade_hit *hit) {
+  const double *origin = shade->camera.from;
+  double direction[3], lamp[3];
   struct occlusion_hit met;
   memset(hit, 0, sizeof *hit);
+  camera_ray(&shade->camera, shade->width, shade->height, x, y, direction);
   bool surface = occlusion_nearest(shade->occlusion, origin, direction, &met);
-  double limit = surface ? met.distance : INFINITY, lamp[3];
+  double limit = surface ? met.distance : INFINITY;
   double distance = light_seen(shade->lights, shade->light_count, origin, direction, limit, lamp);
   if (distance < limit)
     memcpy(hit->shows, lamp, sizeof lamp);

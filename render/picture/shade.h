@@ -12,16 +12,20 @@
 #include <stdint.h>
 
 #include "gather/gather.h"
+#include "scene/camera.h"
 
 struct occlusion;
 struct scene;
 
+/* What is looked at, and from where. */
 struct shade {
   const struct scene *scene;
   const struct occlusion *occlusion; /* what the camera sees, whether it casts shadows or not */
   const struct light *lights;
   int light_count;
   double background[3];
+  struct camera camera;
+  int width, height; /* of the picture, in pixels */
 };
 
 /* What a ray meets. */
@@ -32,12 +36,13 @@ struct shade_hit {
   struct receiver receiver; /* if lit */
 };
 
-/* `direction` is unit; `index` becomes the receiver's. */
-void shade_ray(const struct shade *shade, const double origin[3], const double direction[3],
-               uint64_t index, struct shade_hit *hit);
+/* The ray through (x, y), in pixels from the picture's top left corner; `index` becomes the
+ * receiver's. */
+void shade_ray(const struct shade *shade, double x, double y, uint64_t index,
+               struct shade_hit *hit);
 
-/* The radiance, with what the receiver gathered (NULL if it is not lit), and how far off it
- * is predicted to be, INFINITY where that is not known. */
+/* The radiance, with what the receiver gathered (NULL if it is not lit), and its predicted
+ * absolute error, INFINITY where that is not known. */
 void shade_radiance(const struct shade_hit *hit, const struct gathered *gathered, double rgb[3],
                     double error[3]);
 

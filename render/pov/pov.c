@@ -1,16 +1,15 @@
-/* pov.c - see pov.h. */
 #include "pov/pov.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 #include "base/output.h"
 #include "base/sdl.h"
 #include "base/vector.h"
+#include "scene/scene.h"
 
 /* As a word of a shell. */
 static void print_word(const char *text, FILE *out) {
@@ -24,13 +23,14 @@ static void print_word(const char *text, FILE *out) {
   putc('\'', out);
 }
 
-static void print_vector(const double v[3], FILE *out) {
-  fprintf(out, "<%.15g, %.15g, %.15g>", v[0], v[1], v[2]);
+static void print_vector(const char *before, const double v[3], FILE *out) {
+  fprintf(out, "%s<%.15g, %.15g, %.15g>", before, v[0], v[1], v[2]);
 }
 
-static void print_header(const char *path, const struct pov_view *view, FILE *out) {
+static void print_header(const char *path, const struct shade *view, const char *command,
+                         FILE *out) {
   fputs("// Made by: ", out);
-  sdl_comment(view->command, out);
+  sdl_comment(command, out);
   fputs("\n// Render it in the folder where that ran, by\n//   povray +I", out);
   print_word(path, out);
   fprintf(out,
@@ -40,13 +40,12 @@ static void print_header(const char *path, const struct pov_view *view, FILE *ou
           "#version 3.7;\n"
           "global_settings { assumed_gamma 1 ambient_light 0 }\n",
           view->width, view->height);
-  fputs("background { rgb ", out);
-  print_vector(view->background, out);
+  print_vector("background { rgb ", view->background, out);
   fputs(" }\n\n", out);
 }
 
 /* Sides of the image plane at distance 1: rays pass the middles of pixels, as ours do. */
-static void print_camera(const struct pov_view *view, FILE *out) {
+static void print_camera(const struct shade *view, FILE *out) {
   double forward[3], right[3], up[3];
   camera_axes(&view->camera, forward, right, up);
   double width = 2 * tan(view->camera.fov * M_PI / 360);
@@ -55,14 +54,11 @@ static void print_camera(const struct pov_view *view, FILE *out) {
     right[c] *= width;
     up[c] *= height;
   }
-  fprintf(out, "camera { // %.15g degrees wide\n  location ", view->camera.fov);
-  print_vector(view->camera.from, out);
-  fputs("\n  direction ", out);
-  print_vector(forward, out);
-  fputs("\n  right ", out);
-  print_vector(right, out);
-  fputs("\n  up ", out);
-  print_vector(up, out);
+  fprintf(out, "camera { // %.15g degrees wide\n", view->camera.fov);
+  print_vector("  location ", view->camera.from, out);
+  print_vector("\n  direction ", forward, out);
+  print_vector("\n  right ", right, out);
+  print_vector("\n  up ", up, out);
   fputs("\n}\n\n", out);
 }
 
@@ -104,8 +100,7 @@ static double print_pigment(const struct scene *scene, const struct scene_materi
   bool srgb = false;
   const char *kind = path ? image_kind(path, &srgb) : NULL;
   if (!kind) {
-    fputs("pigment { rgb ", out);
-    print_vector(material->diffuse, out);
+    print_vector("pigment { rgb ", material->diffuse, out);
     fputs(" }", out);
     return 1;
   }
@@ -115,7 +110,8 @@ static double print_pigment(const struct scene *scene, const struct scene_materi
   return mean(material->diffuse);
 }
 
-/* A surface that lights and is lit is the mean of one of either kind, each twice as strong. */
+/* An emitting surface is the average of a reflecting and an emitting texture, each twice as
+ * strong. */
 static void print_texture(const struct scene *scene, const struct scene_material *material,
                           FILE *out) {
   bool gloss = material->shininess > 0 && !black(material->specular);
@@ -130,10 +126,10 @@ static void print_texture(const struct scene *scene, const struct scene_material
             1 / material->shininess);
   fputs(" }", out);
   if (shines) {
-    fputs("]\n      [1 pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb ", out);
     double emission[3];
     for (int c = 0; c < 3; ++c) emission[c] = twice * material->emission[c];
-    print_vector(emission, out);
+    print_vector("]\n      [1 pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb ",
+                 emission, out);
     fputs(" }] }", out);
   }
   fputs(" }", out);
@@ -213,7 +209,7 @@ static void print_includes(const struct pov_includes *includes, FILE *out) {
   putc('\n', out);
 }
 
-/* The macro takes the scale: POV-Ray does not scale lights. */
+/* The scale is the macro's argument: POV-Ray's `scale` leaves a light's brightness alone. */
 static void print_light(const struct light *light, const char *name, FILE *out) {
   double scale = vector_length(light->matrix[0]);
   fprintf(out, "object { %s_Canned(%.15g, %.15g)\n  matrix <", name, scale, light->gain);
@@ -223,36 +219,30 @@ static void print_light(const struct light *light, const char *name, FILE *out) 
               row == 3 && c == 2 ? "> }\n" : ", ");
 }
 
-static void print_scene(const char *path, const struct pov_view *view, char note[256], FILE *out) {
-  print_header(path, view, out);
-  print_includes(view->includes, out);
+static void print_scene(const char *path, const struct shade *view,
+                        const struct pov_includes *includes, const char *command, char note[256],
+                        FILE *out) {
+  print_header(path, view, command, out);
+  print_includes(includes, out);
   print_camera(view, out);
-  for (int k = 0; k < view->light_count; ++k) {
-    int include = view->includes->of_light[k];
-    print_light(&view->lights[k], view->includes->list[include].name, out);
-  }
+  for (int k = 0; k < view->light_count; ++k)
+    print_light(&view->lights[k], includes->list[includes->of_light[k]].name, out);
   putc('\n', out);
   print_mesh(view->scene, note, out);
 }
 
-enum result pov_write(const char *path, const struct pov_view *view, char note[256],
+enum result pov_write(const char *path, const struct shade *view,
+                      const struct pov_includes *includes, const char *command, char note[256],
                       struct error *error) {
-  struct output output = {0};
+  char *text = NULL;
+  size_t length = 0;
+  FILE *out = open_memstream(&text, &length);
   note[0] = 0;
-  enum result result = output_begin(&output, path, error);
-  if (result != RESULT_OK) return result;
-  int fd = dup(output.fd);
-  FILE *out = fd >= 0 ? fdopen(fd, "w") : NULL;
-  if (out) {
-    print_scene(path, view, note, out);
-    int failed = ferror(out);
-    if (fclose(out) != 0 || failed)
-      result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
-  } else {
-    result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
-    if (fd >= 0) close(fd);
-  }
-  if (result == RESULT_OK) result = output_commit(&output, error);
-  output_abandon(&output);
+  if (out) print_scene(path, view, includes, command, note, out);
+  enum result result =
+      !out || fclose(out) != 0 || !text /* glibc's fclose may lose the text without a word */
+          ? result_no_memory(error)
+          : output_text(path, text, length, error);
+  free(text);
   return result;
 }

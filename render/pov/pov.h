@@ -7,25 +7,14 @@
 #ifndef POV_H
 #define POV_H
 
-#include "light/light.h"
+#include "picture/shade.h"
 #include "pov/pov_include.h"
-#include "scene/camera.h"
-#include "scene/scene.h"
-
-struct pov_view {
-  const struct scene *scene;
-  const struct light *lights;
-  int light_count;
-  const struct pov_includes *includes;
-  struct camera camera;
-  int width, height;
-  double background[3];
-  const char *command; /* that made it */
-};
 
 /* Writes the scene, whole or not at all. Files that it reads are named as they are from the
- * working folder, where POV-Ray looks for them. `note` says what is lost, or is left empty. */
-enum result pov_write(const char *path, const struct pov_view *view, char note[256],
+ * working folder, where POV-Ray looks for them. `includes` are the lights', and `command` is the
+ * one that runs. `note` says what is lost, or is left empty. */
+enum result pov_write(const char *path, const struct shade *view,
+                      const struct pov_includes *includes, const char *command, char note[256],
                       struct error *error);
 
 #endif

@@ -1,4 +1,3 @@
-/* pov_include.c - see pov_include.h. */
 #include "pov/pov_include.h"
 
 #include <errno.h>
@@ -75,7 +74,7 @@ static enum result add(const struct light *lights, int number, struct pov_includ
   include->light = number;
   include->path = with_suffix(lights[number].path, ".inc");
   include->image = with_suffix(lights[number].path, ".exr");
-  if (!include->path || !include->image) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!include->path || !include->image) return result_no_memory(error);
   enum result result = read_include(&lights[number], include, error);
   for (int k = 0; k < includes->count - 1 && result == RESULT_OK; ++k)
     if (!strcmp(includes->list[k].name, include->name))
@@ -93,8 +92,7 @@ enum result pov_includes_find(const struct light *lights, int count, struct pov_
   *includes = (struct pov_includes){0};
   includes->list = calloc((size_t)count + 1, sizeof *includes->list);
   includes->of_light = calloc((size_t)count + 1, sizeof *includes->of_light);
-  if (!includes->list || !includes->of_light)
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!includes->list || !includes->of_light) return result_no_memory(error);
   for (int k = 0; k < count && result == RESULT_OK; ++k) {
     int index = known(includes, lights, lights[k].path);
     includes->of_light[k] = index >= 0 ? index : includes->count;

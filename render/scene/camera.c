@@ -1,4 +1,3 @@
-/* camera.c - see camera.h. */
 #include "scene/camera.h"
 
 #include <math.h>
@@ -11,10 +10,10 @@
 
 enum result camera_parse(const char *text, struct camera *camera, struct error *error) {
   *camera = (struct camera){.up = {0, 1, 0}, .fov = 60};
-  struct word_key keys[] = {{"from=X,Y,Z", 3, camera->from, false},
-                            {"at=X,Y,Z", 3, camera->at, false},
-                            {"up=X,Y,Z", 3, camera->up, false},
-                            {"fov=DEG", 1, &camera->fov, false}};
+  struct key_value keys[] = {{"from=X,Y,Z", 3, camera->from, false},
+                             {"at=X,Y,Z", 3, camera->at, false},
+                             {"up=X,Y,Z", 3, camera->up, false},
+                             {"fov=DEG", 1, &camera->fov, false}};
   char what[256];
   snprintf(what, sizeof what, "camera '%s'", text);
   enum result result = key_values_parse(what, text, keys, sizeof keys / sizeof *keys, error);
@@ -23,20 +22,16 @@ enum result camera_parse(const char *text, struct camera *camera, struct error *
     if (!keys[k].seen)
       return result_fail(error, RESULT_BAD, "%s: %s is missing", what, keys[k].form);
   if (!(camera->fov > 0 && camera->fov < 180))
-    return result_fail(error, RESULT_BAD, "camera '%s': fov must be between 0 and 180 degrees",
-                       text);
+    return result_fail(error, RESULT_BAD, "%s: fov must be between 0 and 180 degrees", what);
   double forward[3], up[3], right[3];
   vector_subtract(camera->at, camera->from, forward);
   memcpy(up, camera->up, sizeof up);
   if (!vector_normalise(forward))
-    return result_fail(error, RESULT_BAD, "camera '%s': from and at are the same or too far apart",
-                       text);
-  if (!vector_normalise(up))
-    return result_fail(error, RESULT_BAD, "camera '%s': up has no length", text);
+    return result_fail(error, RESULT_BAD, "%s: from and at are the same or too far apart", what);
+  if (!vector_normalise(up)) return result_fail(error, RESULT_BAD, "%s: up has no length", what);
   vector_cross(up, forward, right);
   if (vector_length(right) < 1e-9)
-    return result_fail(error, RESULT_BAD,
-                       "camera '%s': up is along the view; give another up=X,Y,Z", text);
+    return result_fail(error, RESULT_BAD, "%s: up is along the view; give another up=X,Y,Z", what);
   return RESULT_OK;
 }
 

@@ -1,4 +1,4 @@
-/* scene.c - see scene.h: what is asked of a scene that was loaded. */
+/* scene.c - what is asked of a scene that was loaded. */
 #include "scene/scene.h"
 
 #include <math.h>
@@ -80,10 +80,19 @@ void scene_diffuse(const struct scene *scene, size_t triangle, const double shar
   for (int c = 0; c < 3; ++c) rgb[c] *= texel[c];
 }
 
+void scene_geometric(const struct scene *scene, size_t triangle, double normal[3]) {
+  const int *corners = scene->corners[triangle];
+  double edge[2][3];
+  for (int k = 0; k < 2; ++k)
+    vector_subtract(scene->position[corners[k + 1]], scene->position[corners[0]], edge[k]);
+  vector_cross(edge[0], edge[1], normal);
+  vector_normalise(normal);
+}
+
 void scene_point(const struct scene *scene, size_t triangle, const double share[2],
                  double position[3], double normal[3], double geometric[3]) {
   const int *corners = scene->corners[triangle];
-  double weights[3], edge[2][3];
+  double weights[3];
   share_weights(share, weights);
   for (int c = 0; c < 3; ++c) {
     position[c] = normal[c] = 0;
@@ -92,10 +101,7 @@ void scene_point(const struct scene *scene, size_t triangle, const double share[
       normal[c] += weights[k] * scene->normal[corners[k]][c];
     }
   }
-  for (int k = 0; k < 2; ++k)
-    vector_subtract(scene->position[corners[k + 1]], scene->position[corners[0]], edge[k]);
-  vector_cross(edge[0], edge[1], geometric);
-  vector_normalise(geometric);
+  scene_geometric(scene, triangle, geometric);
   /* opposite normals may cancel out */
   if (!vector_normalise(normal)) memcpy(normal, geometric, 3 * sizeof *normal);
   if (vector_dot(normal, geometric) < 0)

@@ -82,6 +82,9 @@ void scene_box(const struct scene *scene, double low[3], double high[3]);
 void scene_diffuse(const struct scene *scene, size_t triangle, const double share[2],
                    double rgb[3]);
 
+/* The unit normal of a triangle by its corners. */
+void scene_geometric(const struct scene *scene, size_t triangle, double normal[3]);
+
 /* The interpolated unit normal and the position there; the geometric normal is by the
  * triangle's corners, on the side of the interpolated one. */
 void scene_point(const struct scene *scene, size_t triangle, const double share[2],

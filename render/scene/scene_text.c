@@ -1,10 +1,11 @@
-/* scene_text.c - what assimp doesn't tell about the files it reads, see scene_load.h. */
+/* scene_text.c - reads from OBJ, MTL and glTF files what assimp does not report. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "scene/scene_load.h"
 
 struct line {
@@ -88,13 +89,8 @@ static enum result new_material(struct scene_loading *loading, const struct line
     return result_fail(error, RESULT_BAD, "%s:%zu: there are two materials '%s'", line->path,
                        line->number, line->rest);
   strcpy(made.material.name, line->rest);
-  if (loading->mtl_count == loading->mtl_room) {
-    int room = loading->mtl_room ? 2 * loading->mtl_room : 16;
-    void *grown = realloc(loading->mtl, (size_t)room * sizeof *loading->mtl);
-    if (!grown) return result_fail(error, RESULT_MEMORY, "%s: out of memory", line->path);
-    loading->mtl = grown;
-    loading->mtl_room = room;
-  }
+  if (!array_reserve(&loading->mtl, &loading->mtl_room, loading->mtl_count + 1, sizeof made))
+    return result_fail(error, RESULT_MEMORY, "%s: out of memory", line->path);
   loading->mtl[loading->mtl_count++] = made;
   return RESULT_OK;
 }

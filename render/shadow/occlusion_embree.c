@@ -1,9 +1,9 @@
-/* occlusion_embree.c - see occlusion.h. Embree 3, robust mode (watertight at edges).
+/* occlusion_embree.c - Embree 3, robust mode (watertight at edges).
  *
  * Embree sees the scene moved to the origin and scaled by a power of two, so that its half
  * diagonal is between 1/2 and 1, and only the part of a ray that is inside the scene's
- * (slightly larger) box. Single precision then confuses the same, known share of the scene's
- * size whatever the unit of length, the distance from the origin or that of the light. */
+ * (slightly larger) box. The error of single precision is then the same, known share of the
+ * scene's size whatever the unit of length, the distance from the origin or that of the light. */
 #include "shadow/occlusion.h"
 
 #include <embree3/rtcore.h>
@@ -34,7 +34,7 @@ struct occlusion {
   struct shaft_tree *shafts; /* owned */
 };
 
-/* Embree's own way is to print; rtcGetDeviceError tells us later. */
+/* Keeps Embree from printing; rtcGetDeviceError has the error. */
 static void be_quiet(void *context, enum RTCError code, const char *text) {
   (void)context;
   (void)code;
@@ -127,7 +127,7 @@ enum result occlusion_create(const struct scene *scene, struct occlusion **occlu
     return result_fail(error, RESULT_BAD, "%zu triangles are more than Embree takes",
                        scene->triangles);
   struct occlusion *made = calloc(1, sizeof *made);
-  if (!made) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!made) return result_no_memory(error);
   made->empty = scene->triangles == 0;
   enum result result = made->empty ? RESULT_OK : build(scene, made, error);
   if (result == RESULT_OK) result = shaft_tree_create(scene, &made->shafts, error);

@@ -1,17 +1,21 @@
-/* visible.c - see visible.h.
- *
- * With cells of 1/n of the rectangle's sides, n = grid * 2^levels, rays go to points of a
- * lattice of 2n x 2n steps: cells' corners are at even steps and their middles at odd ones,
- * and so are those of blocks of any size. A point is traced once, whoever asks. */
+/* visible.c - the visible cells of a rectangle, as the rule of visible.h says.
+ *   1. Cut the rectangle into grid x grid blocks.
+ *   2. Trace rays to the corners and the middle of each block (ask_blocks, trace).
+ *   3. Mark blocks whose rays are all clear as visible; quarter those whose rays disagree, down to
+ *      cells of 1/n of the sides, n = grid * 2^levels, and go on with 2 (decide).
+ *   4. Merge the visible cells into rectangles (merge).
+ * Rays go to points of a lattice of 2n x 2n steps: cells' corners are at even steps and their
+ * middles at odd ones, and so are those of blocks of any size. A point is traced once. */
 #include "shadow/visible.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "shadow/occlusion.h"
 
-enum { EDGE_MOST = 4096, BATCH = 256 };
+enum { BATCH = 256 }; /* rays */
 enum { UNKNOWN = 0, CLEAR, BLOCKED, ASKED };
 
 struct place {
@@ -22,9 +26,9 @@ struct run {
   int low, high, since; /* cells along the row; its first row */
 };
 
-struct list {
-  void *items;
-  size_t count, room;
+struct places {
+  struct place *place; /* owned */
+  int count, room;
 };
 
 struct visible_work {
@@ -32,29 +36,17 @@ struct visible_work {
   unsigned char *state;    /* [(2n+1)^2] of the lattice */
   unsigned char *clear[2]; /* [n^2] of the cells, by rows and by columns */
   struct run *runs[2];     /* [n/2 + 1] each */
-  struct list asked;       /* places whose state is not UNKNOWN */
-  size_t traced;           /* of those */
-  struct list blocks[2];   /* places of blocks, of this level and the next */
+  struct places asked;     /* places whose state is not UNKNOWN */
+  int traced;              /* of those */
+  struct places blocks[2]; /* places of blocks, of this level and the next */
 };
 
-static enum result no_memory(struct error *error) {
-  return result_fail(error, RESULT_MEMORY, "out of memory for what a receiver sees of an aperture");
-}
-
-static bool append(struct list *list, struct place place) {
-  if (list->count == list->room) {
-    size_t room = list->room ? 2 * list->room : 256;
-    void *items = realloc(list->items, room * sizeof(struct place));
-    if (!items) return false;
-    list->items = items;
-    list->room = room;
-  }
-  ((struct place *)list->items)[list->count++] = place;
+static bool append(struct places *list, struct place place) {
+  if (list->count == list->room &&
+      !array_reserve(&list->place, &list->room, list->count + 1, sizeof place))
+    return false;
+  list->place[list->count++] = place;
   return true;
-}
-
-static struct place item(const struct list *list, size_t k) {
-  return ((const struct place *)list->items)[k];
 }
 
 static void work_free(struct visible_work *work) {
@@ -63,9 +55,9 @@ static void work_free(struct visible_work *work) {
   for (int k = 0; k < 2; ++k) {
     free(work->clear[k]);
     free(work->runs[k]);
-    free(work->blocks[k].items);
+    free(work->blocks[k].place);
   }
-  free(work->asked.items);
+  free(work->asked.place);
   free(work);
 }
 
@@ -120,10 +112,9 @@ static void trace(const struct visible_query *query, struct visible *visible) {
   double points[BATCH][3];
   bool blocked[BATCH];
   while (work->traced < work->asked.count) {
-    size_t left = work->asked.count - work->traced;
-    int count = left < BATCH ? (int)left : BATCH;
+    int left = work->asked.count - work->traced, count = left < BATCH ? left : BATCH;
     for (int k = 0; k < count; ++k) {
-      struct place place = item(&work->asked, work->traced + (size_t)k);
+      struct place place = work->asked.place[work->traced + k];
       double x = coordinate(&query->whole, 0, place.x, 2 * work->cells);
       double y = coordinate(&query->whole, 1, place.y, 2 * work->cells);
       for (int c = 0; c < 3; ++c)
@@ -131,19 +122,19 @@ static void trace(const struct visible_query *query, struct visible *visible) {
     }
     occlusion_blocked(query->occlusion, query->lifted, (const double(*)[3])points, count, blocked);
     for (int k = 0; k < count; ++k) {
-      struct place place = item(&work->asked, work->traced + (size_t)k);
+      struct place place = work->asked.place[work->traced + k];
       *state_at(work, place.x, place.y) = blocked[k] ? BLOCKED : CLEAR;
     }
-    work->traced += (size_t)count;
+    work->traced += count;
     visible->shadow_rays += (uint64_t)count;
   }
 }
 
 /* Asks for what decides about blocks of `size` steps; cells are decided by their middles. */
-static bool ask_blocks(struct visible_work *work, const struct list *blocks, int size) {
+static bool ask_blocks(struct visible_work *work, const struct places *blocks, int size) {
   bool good = true;
-  for (size_t k = 0; k < blocks->count && good; ++k) {
-    struct place at = item(blocks, k);
+  for (int k = 0; k < blocks->count && good; ++k) {
+    struct place at = blocks->place[k];
     good = ask(work, at.x + size / 2, at.y + size / 2);
     for (int corner = 0; corner < 4 && size > 2 && good; ++corner)
       good = ask(work, at.x + (corner & 1) * size, at.y + (corner >> 1) * size);
@@ -162,12 +153,12 @@ static void mark(struct visible_work *work, struct place at, int size) {
 
 /* Marks the blocks that are visible and quarters those that may be in part. Returns the
  * number of cells marked, or -1 without memory. */
-static long decide(struct visible_work *work, const struct list *blocks, int size,
-                   struct list *quarters) {
+static long decide(struct visible_work *work, const struct places *blocks, int size,
+                   struct places *quarters) {
   long marked = 0;
   quarters->count = 0;
-  for (size_t k = 0; k < blocks->count; ++k) {
-    struct place at = item(blocks, k);
+  for (int k = 0; k < blocks->count; ++k) {
+    struct place at = blocks->place[k];
     unsigned char middle = *state_at(work, at.x + size / 2, at.y + size / 2);
     bool agree = true;
     for (int corner = 0; corner < 4 && size > 2; ++corner)
@@ -184,9 +175,9 @@ static long decide(struct visible_work *work, const struct list *blocks, int siz
 }
 
 static bool unanimous(const struct visible_work *work) {
-  struct place first = item(&work->asked, 0);
-  for (size_t k = 1; k < work->asked.count; ++k) {
-    struct place place = item(&work->asked, k);
+  struct place first = work->asked.place[0];
+  for (int k = 1; k < work->asked.count; ++k) {
+    struct place place = work->asked.place[k];
     if (*state_at(work, place.x, place.y) != *state_at(work, first.x, first.y)) return false;
   }
   return true;
@@ -194,7 +185,7 @@ static bool unanimous(const struct visible_work *work) {
 
 /* Asks and traces for a level of blocks; false without memory. */
 static bool look(const struct visible_query *query, struct visible *visible,
-                 const struct list *blocks, int size) {
+                 const struct places *blocks, int size) {
   if (!ask_blocks(visible->work, blocks, size)) return false;
   trace(query, visible);
   return true;
@@ -203,7 +194,7 @@ static bool look(const struct visible_query *query, struct visible *visible,
 static long find_levels(const struct visible_query *query, struct visible *visible) {
   struct visible_work *work = visible->work;
   size_t n = (size_t)work->cells;
-  struct list *blocks = &work->blocks[0], *quarters = &work->blocks[1];
+  struct places *blocks = &work->blocks[0], *quarters = &work->blocks[1];
   int size = 2 * work->cells / query->grid;
   long total = 0;
   blocks->count = 0;
@@ -219,7 +210,7 @@ static long find_levels(const struct visible_query *query, struct visible *visib
     if (marked < 0) return -1;
     total += marked;
     if (quarters->count == 0) return total;
-    struct list *swap = blocks;
+    struct places *swap = blocks;
     blocks = quarters;
     quarters = swap;
     size /= 2;
@@ -233,8 +224,8 @@ static long find_cells(const struct visible_query *query, struct visible *visibl
   struct visible_work *work = visible->work;
   work->asked.count = work->traced = 0;
   long total = find_levels(query, visible);
-  for (size_t k = 0; k < work->asked.count; ++k) {
-    struct place place = item(&work->asked, k);
+  for (int k = 0; k < work->asked.count; ++k) {
+    struct place place = work->asked.place[k];
     *state_at(work, place.x, place.y) = UNKNOWN;
   }
   return total;
@@ -249,13 +240,8 @@ static bool emit(const struct visible_query *query, struct visible *visible, int
   r.low[1 - axis] = coordinate(&query->whole, 1 - axis, run->since, steps);
   r.high[1 - axis] = coordinate(&query->whole, 1 - axis, until, steps);
   if (!(r.low[0] < r.high[0] && r.low[1] < r.high[1])) return true; /* rounded away */
-  if (visible->count == visible->room) {
-    int room = visible->room ? 2 * visible->room : 64;
-    void *grown = realloc(visible->rectangles, (size_t)room * sizeof *visible->rectangles);
-    if (!grown) return false;
-    visible->rectangles = grown;
-    visible->room = room;
-  }
+  if (!array_reserve(&visible->rectangles, &visible->room, visible->count + 1, sizeof r))
+    return false;
   visible->rectangles[visible->count++] = r;
   return true;
 }
@@ -305,21 +291,21 @@ enum result visible_find(const struct visible_query *query, struct visible *visi
                          struct error *error) {
   const struct visible_rectangle *whole = &query->whole;
   visible->count = 0;
-  if (query->grid < 1 || query->edge < query->grid || query->edge > EDGE_MOST)
+  if (query->grid < 1 || query->edge < query->grid || query->edge > VISIBLE_MOST_EDGE)
     return result_fail(error, RESULT_BAD,
                        "shadow grid %d and edge %d: 1 <= grid <= edge <= %d is possible",
-                       query->grid, query->edge, EDGE_MOST);
+                       query->grid, query->edge, VISIBLE_MOST_EDGE);
   if (!(whole->low[0] < whole->high[0] && whole->low[1] < whole->high[1])) return RESULT_OK;
   int cells = query->grid;
   while (cells < query->edge) cells *= 2;
-  if (!prepare(visible, cells)) return no_memory(error);
+  if (!prepare(visible, cells)) return result_no_memory(error);
   long found = find_cells(query, visible);
-  if (found < 0) return no_memory(error);
+  if (found < 0) return result_no_memory(error);
   if (found == 0) return RESULT_OK;
   if (found == (long)cells * cells) {
     const struct run all = {0, cells, 0};
-    return emit(query, visible, 0, &all, cells) ? RESULT_OK : no_memory(error);
+    return emit(query, visible, 0, &all, cells) ? RESULT_OK : result_no_memory(error);
   }
   int axis = merge(NULL, visible, 0) <= merge(NULL, visible, 1) ? 0 : 1;
-  return merge(query, visible, axis) < 0 ? no_memory(error) : RESULT_OK;
+  return merge(query, visible, axis) < 0 ? result_no_memory(error) : RESULT_OK;
 }

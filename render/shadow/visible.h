@@ -16,6 +16,9 @@
 
 struct occlusion;
 
+/* The smallest part of a side is one of so many. */
+enum { VISIBLE_MOST_EDGE = 4096 };
+
 struct visible_rectangle {
   double low[2], high[2];
 };
@@ -28,7 +31,7 @@ struct visible_query {
   double origin[3], along[2][3];
   struct visible_rectangle whole;
   int grid; /* >= 1 */
-  int edge; /* >= grid, <= 4096; rounded up to grid times a power of two */
+  int edge; /* grid..VISIBLE_MOST_EDGE; rounded up to grid times a power of two */
 };
 
 /* A buffer that is used again from receiver to receiver; one for each thread.

@@ -1,4 +1,4 @@
-/* tradeoff.c - see tradeoff.h. Repeats are interleaved: the whole ladder once, then again, so
+/* tradeoff.c - repeats are interleaved: the whole ladder once, then again, so
  * that whatever else the machine does meets all methods alike. */
 #include "tradeoff/tradeoff.h"
 
@@ -22,24 +22,18 @@ static const double dark = 0.01;
 
 enum { TILE = 8, TOGETHER = TILE * TILE, MOST_RUNS = 100 };
 
-/* One thread's. */
-struct worker {
-  struct gather *gather;
-  struct receiver receivers[TOGETHER];
-  double cpu;
-};
-
 struct bench {
   const struct tradeoff_settings *settings;
   struct tradeoff *tradeoff;
-  struct shade_hit *hits; /* of the lit pixels, tile by tile */
+  struct shade_hit *hits;     /* of the lit pixels, tile by tile */
+  struct receiver *receivers; /* theirs */
   size_t count;
   size_t *first; /* [tiles + 1]: each tile's in hits */
   int tiles;
   struct gathered *gathered, *truth; /* [count] */
   struct gathered *same;             /* [count]: the reference with the usual shadows */
-  struct worker *workers;
-  double done, share; /* progress: before this run, of this run */
+  struct gather **gather;            /* [threads] */
+  double done, share;                /* progress: before this run, of this run */
 };
 
 static double clock_of(clockid_t clock) {
@@ -51,34 +45,32 @@ static double clock_of(clockid_t clock) {
 /* ---- What the camera sees ---- */
 
 static void trace_tile(struct bench *bench, int left, int top) {
-  const struct tradeoff_settings *settings = bench->settings;
+  const struct shade *shade = &bench->settings->shade;
   for (int pixel = 0; pixel < TOGETHER; ++pixel) {
     int x = left + pixel % TILE, y = top + pixel / TILE;
-    if (x >= settings->width || y >= settings->height) continue;
-    uint64_t index = (uint64_t)y * (uint64_t)settings->width + (uint64_t)x;
+    if (x >= shade->width || y >= shade->height) continue;
     struct shade_hit *hit = &bench->hits[bench->count];
-    double direction[3];
-    camera_ray(&settings->camera, settings->width, settings->height, x + 0.5, y + 0.5, direction);
-    shade_ray(&settings->shade, settings->camera.from, direction, index, hit);
-    if (hit->lit) ++bench->count;
+    shade_ray(shade, x + 0.5, y + 0.5, (uint64_t)y * (uint64_t)shade->width + (uint64_t)x, hit);
+    if (hit->lit) bench->receivers[bench->count++] = hit->receiver;
   }
 }
 
 static enum result trace(struct bench *bench, struct error *error) {
   const struct tradeoff_settings *settings = bench->settings;
-  int columns = (settings->width + TILE - 1) / TILE, rows = (settings->height + TILE - 1) / TILE;
-  size_t pixels = (size_t)settings->width * (size_t)settings->height;
+  int width = settings->shade.width, height = settings->shade.height;
+  int columns = (width + TILE - 1) / TILE, rows = (height + TILE - 1) / TILE;
+  size_t pixels = (size_t)width * (size_t)height;
   bench->tiles = columns * rows;
   bench->hits = calloc(pixels + 1, sizeof *bench->hits); /* one to try */
+  bench->receivers = calloc(pixels, sizeof *bench->receivers);
   bench->first = calloc((size_t)bench->tiles + 1, sizeof *bench->first);
   bench->gathered = calloc(pixels, sizeof *bench->gathered);
   bench->truth = calloc(pixels, sizeof *bench->truth);
   bench->same = calloc(pixels, sizeof *bench->same);
-  bench->workers = calloc((size_t)settings->threads, sizeof *bench->workers);
-  if (!bench->hits || !bench->first || !bench->gathered || !bench->truth || !bench->same ||
-      !bench->workers)
-    return result_fail(error, RESULT_MEMORY, "out of memory for a picture of %dx%d",
-                       settings->width, settings->height);
+  bench->gather = calloc((size_t)settings->threads, sizeof *bench->gather);
+  if (!bench->hits || !bench->receivers || !bench->first || !bench->gathered || !bench->truth ||
+      !bench->same || !bench->gather)
+    return result_fail(error, RESULT_MEMORY, "out of memory for a picture of %dx%d", width, height);
   for (int tile = 0; tile < bench->tiles; ++tile) {
     bench->first[tile] = bench->count;
     trace_tile(bench, tile % columns * TILE, tile / columns * TILE);
@@ -90,18 +82,12 @@ static enum result trace(struct bench *bench, struct error *error) {
 
 /* ---- Gathering ---- */
 
-static enum result do_tile(void *context, int tile, int number, struct error *error) {
+static enum result do_tile(void *context, int tile, int worker, struct error *error) {
   struct bench *bench = context;
-  struct worker *worker = &bench->workers[number];
   size_t first = bench->first[tile];
   int count = (int)(bench->first[tile + 1] - first);
-  if (count == 0) return RESULT_OK;
-  for (int k = 0; k < count; ++k) worker->receivers[k] = bench->hits[first + (size_t)k].receiver;
-  double start = clock_of(CLOCK_THREAD_CPUTIME_ID);
-  enum result result =
-      gather_light(worker->gather, worker->receivers, count, &bench->gathered[first], error);
-  worker->cpu += clock_of(CLOCK_THREAD_CPUTIME_ID) - start;
-  return result;
+  return gather_light(bench->gather[worker], &bench->receivers[first], count,
+                      &bench->gathered[first], error);
 }
 
 static void show_progress(void *context, double done) {
@@ -116,22 +102,14 @@ static enum result gather_once(struct bench *bench, const struct gather_settings
                                struct gather_counts *counts, double *cpu, double *wall,
                                struct error *error) {
   int threads = bench->settings->threads;
-  enum result result = RESULT_OK;
-  for (int k = 0; k < threads && result == RESULT_OK; ++k)
-    result = gather_create(gather, &bench->workers[k].gather, error);
-  double start = progress_now();
+  enum result result = gather_create_all(gather, threads, bench->gather, error);
+  double start = progress_now(), start_cpu = clock_of(CLOCK_PROCESS_CPUTIME_ID);
   if (result == RESULT_OK)
     result = tiles_run(threads, bench->tiles, do_tile, show_progress, bench, error);
   *wall += progress_now() - start;
+  *cpu += clock_of(CLOCK_PROCESS_CPUTIME_ID) - start_cpu;
   memset(counts, 0, sizeof *counts);
-  for (int k = 0; k < threads; ++k) {
-    struct worker *worker = &bench->workers[k];
-    if (worker->gather) gather_counts_add(counts, gather_counts(worker->gather));
-    gather_free(worker->gather);
-    *cpu += worker->cpu;
-    worker->gather = NULL;
-    worker->cpu = 0;
-  }
+  gather_free_all(bench->gather, threads, counts);
   return result;
 }
 
@@ -181,7 +159,7 @@ static enum result find_truth(struct bench *bench, struct error *error) {
   gather.method = GATHER_REFERENCE;
   gather.tolerance = tradeoff_truth;
   gather.all_effects = true;
-  gather.aids = &bench->tradeoff->aids[GATHER_REFERENCE].aids;
+  gather.prepared = &bench->tradeoff->prepared[GATHER_REFERENCE].prepared;
   for (int k = 0; k < 2 && result == RESULT_OK; ++k) {
     struct gather_counts counts;
     double wall = 0;
@@ -205,28 +183,28 @@ static size_t memory_used(void) {
   return info.uordblks + info.hblkhd;
 }
 
-/* A method that cannot do these slabs is left out and says why. */
-static enum result make_aids(struct bench *bench, enum gather_method method, struct error *error) {
+static enum result prepare_method(struct bench *bench, enum gather_method method,
+                                  struct error *error) {
   const struct tradeoff_settings *settings = bench->settings;
-  struct tradeoff_aids *aids = &bench->tradeoff->aids[method];
+  struct tradeoff_prepared *made = &bench->tradeoff->prepared[method];
   size_t before = memory_used();
   double start = clock_of(CLOCK_PROCESS_CPUTIME_ID);
   enum result result = gather_prepare(settings->gather.lights, settings->gather.light_count, method,
-                                      UINT64_MAX, settings->threads, &aids->aids, error);
+                                      UINT64_MAX, settings->threads, &made->prepared, error);
   if (result != RESULT_OK) return result;
   size_t after = memory_used();
-  aids->cpu = clock_of(CLOCK_PROCESS_CPUTIME_ID) - start;
-  aids->bytes = after > before ? after - before : 0;
-  aids->made = true;
+  made->cpu = clock_of(CLOCK_PROCESS_CPUTIME_ID) - start;
+  made->bytes = after > before ? after - before : 0;
+  made->made = true;
   return RESULT_OK;
 }
 
 static int most_levels(const struct tradeoff *tradeoff) {
   int most = 0;
   for (int k = 0; k < GATHER_METHODS; ++k) {
-    const struct gather_prepared *aids = &tradeoff->aids[k].aids;
-    for (int page = 0; aids->levels && page < aids->pages; ++page)
-      if (aids->levels[page].count > most) most = aids->levels[page].count;
+    const struct gather_prepared *prepared = &tradeoff->prepared[k].prepared;
+    for (int page = 0; prepared->levels && page < prepared->pages; ++page)
+      if (prepared->levels[page].count > most) most = prepared->levels[page].count;
   }
   return most;
 }
@@ -234,13 +212,13 @@ static int most_levels(const struct tradeoff *tradeoff) {
 static enum result prepare(struct bench *bench, struct error *error) {
   const struct tradeoff_settings *settings = bench->settings;
   struct tradeoff *tradeoff = bench->tradeoff;
-  enum result result = make_aids(bench, GATHER_REFERENCE, error);
+  enum result result = prepare_method(bench, GATHER_REFERENCE, error);
   for (int k = 0; k < GATHER_METHODS && result == RESULT_OK; ++k)
-    if (settings->methods[k] && !tradeoff->aids[k].made)
-      result = make_aids(bench, (enum gather_method)k, error);
+    if (settings->methods[k] && !tradeoff->prepared[k].made)
+      result = prepare_method(bench, (enum gather_method)k, error);
   if (result != RESULT_OK) return result;
   tradeoff->rungs = calloc(TRADEOFF_MOST_RUNGS, sizeof *tradeoff->rungs);
-  if (!tradeoff->rungs) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!tradeoff->rungs) return result_no_memory(error);
   int levels = most_levels(tradeoff);
   if (settings->levels >= 0 && settings->levels < levels) levels = settings->levels;
   tradeoff->count = tradeoff_ladder(settings, levels, tradeoff->rungs);
@@ -264,10 +242,10 @@ static enum result measure(struct bench *bench, struct tradeoff_rung *rung, stru
   gather.shadow_edge = rung->shadow_edge;
   gather.tolerance = rung->tolerance > 0 ? rung->tolerance : tradeoff_truth;
   gather.level = rung->level;
-  gather.aids = &tradeoff->aids[rung->method].aids;
+  gather.prepared = &tradeoff->prepared[rung->method].prepared;
   while (runs < 1 || (cpu < shortest && runs < MOST_RUNS)) {
     enum result result = gather_once(bench, &gather, &rung->counts, &cpu, &wall, error);
-    if (result == RESULT_BAD) {
+    if (result == RESULT_BAD) { /* it is left out, and the table says why */
       char *reason = tradeoff->refusal[rung->method];
       snprintf(reason, sizeof tradeoff->refusal[0], "%.199s", error->text);
       rung->refused = true;
@@ -337,17 +315,17 @@ enum result tradeoff_measure(const struct tradeoff_settings *settings, struct tr
     rung->wall = spread(rung->walls, rung->repeats);
   }
   free(bench.hits);
+  free(bench.receivers);
   free(bench.first);
   free(bench.gathered);
   free(bench.truth);
   free(bench.same);
-  free(bench.workers);
+  free(bench.gather);
   return result;
 }
 
 void tradeoff_free(struct tradeoff *tradeoff) {
-  for (int k = 0; k < GATHER_METHODS; ++k)
-    if (tradeoff->aids[k].made) gather_prepared_free(&tradeoff->aids[k].aids);
+  for (int k = 0; k < GATHER_METHODS; ++k) gather_prepared_free(&tradeoff->prepared[k].prepared);
   free(tradeoff->rungs);
   *tradeoff = (struct tradeoff){0};
 }

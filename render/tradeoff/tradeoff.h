@@ -14,7 +14,6 @@
 #include "base/tiles.h"
 #include "gather/gather.h"
 #include "picture/shade.h"
-#include "scene/camera.h"
 
 enum { TRADEOFF_MOST_REPEATS = 99, TRADEOFF_MOST_RUNGS = 256 };
 enum { TRADEOFF_NO_LEVEL = -2 };     /* -1: by solid angle, as in gather.h */
@@ -25,12 +24,10 @@ extern const double tradeoff_truth;
 
 struct tradeoff_settings {
   struct shade shade;
-  struct camera camera;
-  int width, height;
   struct gather_settings gather; /* lights, seed, occlusion, usual shadows; the rest is the
                                     ladder's */
-  bool methods[GATHER_METHODS];  /* which to measure */
-  bool closed;                   /* may the method closed be measured: no shadows, no gloss */
+  bool methods[GATHER_METHODS];  /* which to measure; not METHOD_OPENGL */
+  bool matte;                    /* no shadows, no highlights: methods that are matte_only too */
   int levels;                    /* the last that is measured; -1: all */
   double finest;                 /* tolerance at which the ladder ends, > 0 */
   int threads;                   /* >= 1 */
@@ -39,9 +36,9 @@ struct tradeoff_settings {
   void *progress_context;
 };
 
-/* Light that is not as it should be. Errors are relative: the root of the mean square over
- * that of the reference; and the largest of a pixel, to its own light, or to a hundredth of
- * the picture's mean where it is darker. */
+/* RMS and largest relative error of a picture: the root of the mean square over that of the
+ * reference; the largest error of a pixel over its own light, or over a hundredth of the
+ * picture's mean where it is darker. */
 struct tradeoff_error {
   double rms, most;
 };
@@ -57,21 +54,21 @@ struct tradeoff_rung {
   double tolerance; /* 0: it has none */
   int level;        /* TRADEOFF_NO_LEVEL: it has none */
   int shadow_grid, shadow_edge;
-  bool shadows;                     /* is one of those that differ by their shadows alone */
+  bool shadows;                     /* one of those that differ by their shadows alone */
   bool refused;                     /* the method cannot do this scene: nothing else is known */
   struct tradeoff_spread cpu, wall; /* seconds for all receivers; CPU of all threads */
   struct tradeoff_error error;      /* against the reference */
   struct tradeoff_error sum;        /* against that with the usual shadows; unless `shadows` */
   struct gather_counts counts;
 
-  int repeats; /* what took over a second is not repeated */
+  int repeats; /* measured so often: what took over a second once */
   double cpus[TRADEOFF_MOST_REPEATS], walls[TRADEOFF_MOST_REPEATS];
 };
 
 /* What a method made of the slabs first. */
-struct tradeoff_aids {
+struct tradeoff_prepared {
   bool made;
-  struct gather_prepared aids;
+  struct gather_prepared prepared;
   double cpu;   /* seconds */
   size_t bytes; /* of memory that it keeps */
 };
@@ -80,7 +77,7 @@ struct tradeoff {
   size_t receivers;
   int count;
   struct tradeoff_rung *rungs; /* owned */
-  struct tradeoff_aids aids[GATHER_METHODS];
+  struct tradeoff_prepared prepared[GATHER_METHODS];
   char refusal[GATHER_METHODS][200]; /* why a method cannot do this scene; "" */
   double truth_cpu;
 };
@@ -91,10 +88,10 @@ enum result tradeoff_measure(const struct tradeoff_settings *settings, struct tr
                              struct error *error);
 void tradeoff_free(struct tradeoff *tradeoff); /* zeroed allowed */
 
-/* The rungs, in the order of gather.h's methods (tradeoff_ladder.c): methods without settings
- * have one, those with levels one a level and one by solid angle, all others one for each
- * tolerance from 0.1 down to settings->finest. Then, where there are shadows, auto with other
- * ones. `levels` is how many there are besides level 0. Returns how many rungs. */
+/* The rungs, in the order of the methods, by their dials (tradeoff_ladder.c): methods without one
+ * have one rung, those with levels one a level and one by solid angle, those with a tolerance one
+ * for each from 0.1 down to settings->finest. Then, where there are shadows, auto with other ones.
+ * `levels` is how many there are besides level 0. Returns how many rungs. */
 int tradeoff_ladder(const struct tradeoff_settings *settings, int levels,
                     struct tradeoff_rung rungs[TRADEOFF_MOST_RUNGS]);
 

@@ -1,9 +1,9 @@
-/* tradeoff_ladder.c - the settings at which methods are measured, see tradeoff.h. */
+/* tradeoff_ladder.c - the settings at which methods are measured. */
 #include <string.h>
 
 #include "tradeoff/tradeoff.h"
 
-/* As the commands' default: what methods take for which it is not the dial. */
+/* The commands' default, of methods that have another dial. */
 static const double usual_tolerance = 0.01;
 
 /* Of shadows: blocks and edges in shares of an aperture. */
@@ -39,24 +39,18 @@ static void add_tolerances(struct ladder *ladder, enum gather_method method, dou
   } while (tolerance >= 0.999 * finest && ladder->count < TRADEOFF_MOST_RUNGS);
 }
 
-/* What the method is told by, on the command line. New ones have a tolerance. */
 static void add_method(struct ladder *ladder, enum gather_method method, double finest,
                        int levels) {
-  switch (method) {
-  case GATHER_PAPER:
-  case GATHER_MIDPOINT:
-  case GATHER_PI:
-  case GATHER_CLOSED:
-  case GATHER_VIEWS:
+  switch (gather_methods[method].dial) {
+  case METHOD_NO_DIAL:
     add(ladder, method, 0, TRADEOFF_NO_LEVEL);
-    break;
-  case GATHER_LEVELS:
-  case GATHER_PAPER_LEVELS:
+    return;
+  case METHOD_BY_TOLERANCE:
+    add_tolerances(ladder, method, finest);
+    return;
+  case METHOD_BY_LEVEL:
     for (int level = 0; level <= levels; ++level) add(ladder, method, usual_tolerance, level);
     add(ladder, method, usual_tolerance, -1);
-    break;
-  default:
-    add_tolerances(ladder, method, finest);
   }
 }
 
@@ -77,7 +71,7 @@ int tradeoff_ladder(const struct tradeoff_settings *settings, int levels,
                     struct tradeoff_rung rungs[TRADEOFF_MOST_RUNGS]) {
   struct ladder ladder = {.usual = &settings->gather, .rungs = rungs};
   for (int k = 0; k < GATHER_METHODS; ++k)
-    if (settings->methods[k] && (k != GATHER_CLOSED || settings->closed))
+    if (settings->methods[k] && (!gather_methods[k].matte_only || settings->matte))
       add_method(&ladder, (enum gather_method)k, settings->finest, levels);
   if (settings->methods[GATHER_AUTO] && settings->gather.occlusion) add_shadows(&ladder);
   return ladder.count;

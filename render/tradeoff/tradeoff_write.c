@@ -1,4 +1,4 @@
-/* tradeoff_write.c - the table of what accuracy costs, and its plot, see tradeoff.h. */
+/* tradeoff_write.c - the table of what accuracy costs, and its plot. */
 #include <math.h>
 #include <sys/resource.h>
 
@@ -46,8 +46,8 @@ static void print_head(FILE *file, const struct tradeoff_settings *settings,
                        const struct tradeoff *tradeoff, const struct tradeoff_about *about) {
   fputs("# What accuracy costs in time, by renderslab tradeoff.\n# command: ", file);
   print_line(file, about->command);
-  fprintf(file, "# picture: %dx%d, of which %zu pixels gather light\n", settings->width,
-          settings->height, tradeoff->receivers);
+  fprintf(file, "# picture: %dx%d, of which %zu pixels gather light\n", settings->shade.width,
+          settings->shade.height, tradeoff->receivers);
   fprintf(file, "# reference: tolerance %g, ", tradeoff_truth);
   if (settings->gather.occlusion)
     fprintf(file, "shadows %d/%d", settings->gather.shadow_grid,
@@ -62,7 +62,7 @@ static void print_head(FILE *file, const struct tradeoff_settings *settings,
           about->slab_bytes, peak_memory());
   for (int k = 0; k < GATHER_METHODS; ++k) {
     if (!tradeoff->refusal[k][0]) continue;
-    fprintf(file, "# left out: %s: ", gather_method_name((enum gather_method)k));
+    fprintf(file, "# left out: %s: ", gather_methods[k].name);
     print_line(file, tradeoff->refusal[k]);
   }
   for (size_t k = 0; k < sizeof explained / sizeof *explained; ++k)
@@ -71,7 +71,7 @@ static void print_head(FILE *file, const struct tradeoff_settings *settings,
 
 static void print_setting(FILE *file, const struct tradeoff_settings *settings,
                           const struct tradeoff_rung *rung) {
-  fprintf(file, "%s\t", gather_method_name(rung->method));
+  fprintf(file, "%s\t", gather_methods[rung->method].name);
   if (rung->tolerance > 0)
     fprintf(file, "%.3g\t", rung->tolerance);
   else
@@ -89,7 +89,7 @@ static void print_setting(FILE *file, const struct tradeoff_settings *settings,
 }
 
 static void print_rung(FILE *file, const struct tradeoff_rung *rung,
-                       const struct tradeoff_aids *aids) {
+                       const struct tradeoff_prepared *prepared) {
   const struct gather_counts *counts = &rung->counts;
   fprintf(file, "%.4g\t%.4g\t%.4g\t%.4g\t%.4g\t%.4g\t", rung->cpu.middle, rung->cpu.low,
           rung->cpu.high, rung->wall.middle, rung->wall.low, rung->wall.high);
@@ -103,8 +103,8 @@ static void print_rung(FILE *file, const struct tradeoff_rung *rung,
   else
     fputs("-\t", file);
   fprintf(file, "%llu\t%llu\t%llu\t%zu\t%.4g\n", (unsigned long long)counts->microlights,
-          (unsigned long long)counts->nodes, (unsigned long long)counts->shadow_rays, aids->bytes,
-          aids->cpu);
+          (unsigned long long)counts->nodes, (unsigned long long)counts->shadow_rays,
+          prepared->bytes, prepared->cpu);
 }
 
 void tradeoff_print(FILE *file, const struct tradeoff_settings *settings,
@@ -115,7 +115,7 @@ void tradeoff_print(FILE *file, const struct tradeoff_settings *settings,
     const struct tradeoff_rung *rung = &tradeoff->rungs[k];
     if (rung->refused) continue;
     print_setting(file, settings, rung);
-    print_rung(file, rung, &tradeoff->aids[rung->method]);
+    print_rung(file, rung, &tradeoff->prepared[rung->method]);
   }
 }
 
@@ -171,8 +171,7 @@ void tradeoff_plot(FILE *file, const struct tradeoff *tradeoff,
   const char *between = "";
   for (int k = 0; k < LINES; ++k) {
     if (!drawn[k]) continue;
-    const char *title =
-        k == SHADOWS ? "auto, other shadows" : gather_method_name((enum gather_method)k);
+    const char *title = k == SHADOWS ? "auto, other shadows" : gather_methods[k].name;
     fprintf(file, "%s$line%d with linespoints lw 2 pt %d ps 1.2 lc rgb '%s' title '%s'", between, k,
             k + 4, colours[k % COLOURS], title);
     between = ", ";

@@ -1,4 +1,3 @@
-/* viewer_lamps.c - see viewer_lamps.h. */
 #include "viewer/viewer_lamps.h"
 
 #include <math.h>
@@ -25,8 +24,7 @@ enum result viewer_lamps_create(int width, int height, struct viewer_lamps *lamp
                                 struct error *error) {
   *lamps = (struct viewer_lamps){.width = width, .height = height};
   lamps->pixels = calloc((size_t)width * (size_t)height, sizeof *lamps->pixels);
-  return lamps->pixels ? RESULT_OK
-                       : result_fail(error, RESULT_MEMORY, "out of memory for the picture");
+  return lamps->pixels ? RESULT_OK : result_no_memory(error);
 }
 
 void viewer_lamps_free(struct viewer_lamps *lamps) {
@@ -46,16 +44,14 @@ static void widen(const double pixel[2], const int size[2], struct area *area) {
 /* Widens the area by where the camera may see the page. */
 static void add_page(const struct light_page *page, const struct camera *camera, const int size[2],
                      struct area *area) {
-  double forward[3], right[3], up[3], half = tan(camera->fov * (M_PI / 360)), to[3];
+  double forward[3], right[3], up[3], half = tan(camera->fov * (M_PI / 360)), to[3], corners[4][3];
   static const double all[2][2] = {{-1e9, -1e9}, {1e9, 1e9}};
   vector_subtract(camera->from, page->center, to);
   if (!(vector_dot(to, page->frame[2]) > 0)) return;
   camera_axes(camera, forward, right, up);
+  light_page_corners(page, corners);
   for (int k = 0; k < 4; ++k) {
-    for (int c = 0; c < 3; ++c)
-      to[c] = page->center[c] - camera->from[c] +
-              (k & 1 ? 1 : -1) * page->axes[0].half * page->frame[0][c] +
-              (k & 2 ? 1 : -1) * page->axes[1].half * page->frame[1][c];
+    vector_subtract(corners[k], camera->from, to);
     double depth = half * vector_dot(to, forward);
     double pixel[2] = {(vector_dot(to, right) / depth + 1) / 2 * size[0],
                        (size[1] - vector_dot(to, up) / depth * size[0]) / 2};

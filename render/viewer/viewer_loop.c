@@ -1,4 +1,3 @@
-/* viewer_loop.c - see viewer_loop.h. */
 #include "viewer/viewer_loop.h"
 
 #include <epoxy/gl.h>
@@ -15,8 +14,8 @@
 #include "viewer/viewer_status.h"
 #include "viewer/viewer_window.h"
 
-/* Seconds that a frame may take to add views: the first after something has moved, and later
- * ones; how many views the very first one adds. */
+/* Seconds that a frame may take to add views: the first after a change, and later ones; views
+ * that the very first one adds. */
 static const double moving = 0.05, still = 0.1, first_views = 8;
 
 struct viewer_loop {
@@ -67,7 +66,7 @@ static void follow_lights(struct viewer_loop *loop) {
   }
 }
 
-/* Does what the state asks for. */
+/* Brings the picture up to date with the state. */
 static enum result follow(struct viewer_loop *loop, struct error *error) {
   enum result result = follow_window(loop, error);
   if (result != RESULT_OK) return result;
@@ -86,8 +85,8 @@ static enum result follow(struct viewer_loop *loop, struct error *error) {
   return RESULT_OK;
 }
 
-/* As many views as the time of a frame allows; the next time more or fewer. All at once for
- * keys that wait for them. */
+/* Adds as many views as the time of a frame allows, and adapts their number for the next. All at
+ * once for keys that wait for them. */
 static enum result refine(struct viewer_loop *loop, struct error *error) {
   if (loop->picture.done >= 1) return RESULT_OK;
   if (loop->keys) return viewer_picture_add(&loop->picture, 1, error);
@@ -99,7 +98,7 @@ static enum result refine(struct viewer_loop *loop, struct error *error) {
   return result;
 }
 
-/* By the picture, roughly at first and for good once it is complete. */
+/* Sets the exposure by the picture, roughly at first and finally once it is complete. */
 static enum result expose(struct viewer_loop *loop, struct error *error) {
   struct picture picture;
   if (loop->state.exposure > 0) loop->white = loop->state.exposure;
@@ -125,7 +124,7 @@ static enum result save(struct viewer_loop *loop, struct error *error) {
   if (command)
     result = slab_exr_write(path, &picture, 0, command, error);
   else
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+    result = result_no_memory(error);
   if (result == RESULT_OK) {
     printf("%s\n", command);
     fflush(stdout);

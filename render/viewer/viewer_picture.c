@@ -1,4 +1,3 @@
-/* viewer_picture.c - see viewer_picture.h. */
 #include "viewer/viewer_picture.h"
 
 #include <epoxy/gl.h>
@@ -63,7 +62,7 @@ enum result viewer_picture_set_sum(struct viewer_picture *picture, const struct 
   const struct viewer_world *world = picture->world;
   struct gl_sum_settings settings = {.lights = world->lights,
                                      .light_count = world->light_count,
-                                     .levels = world->aids->levels,
+                                     .levels = world->prepared->levels,
                                      .level = how->level,
                                      .occluders = how->shadows ? world->scene : NULL,
                                      .map_size = world->map_size,
@@ -92,11 +91,10 @@ enum result viewer_picture_resize(struct viewer_picture *picture, int width, int
 
 bool viewer_picture_move(struct viewer_picture *picture, int light, const double matrix[4][3]) {
   struct light *lights = picture->world->lights;
-  int number = 0;
+  int number = light_pages(lights, light);
   if (!light_move(&lights[light], matrix)) return false;
-  for (int l = 0; l < light; ++l) number += lights[l].count;
   for (int k = 0; k < lights[light].count; ++k)
-    levels_move(&picture->world->aids->levels[number + k], &lights[light].pages[k]);
+    levels_move(&picture->world->prepared->levels[number + k], &lights[light].pages[k]);
   gl_sum_moved(&picture->sum, light);
   picture->full = false;
   count_views(picture);

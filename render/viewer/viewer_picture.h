@@ -1,5 +1,5 @@
-/* viewer_picture.h - the picture that the viewer shows: surfaces drawn, and views of the lights
- * added until all are in. Needs a current context, until it is freed; no window. */
+/* viewer_picture.h - the picture that the viewer shows: surfaces are rasterised, and views of the
+ * lights added until all are in. Needs a current context, until it is freed; no window. */
 #ifndef VIEWER_PICTURE_H
 #define VIEWER_PICTURE_H
 
@@ -18,7 +18,7 @@ struct viewer_world {
   const struct scene *scene;
   struct light *lights;
   int light_count;
-  struct gather_prepared *aids; /* of method gl */
+  struct gather_prepared *prepared; /* of method gl */
   double background[3];
   int map_size; /* of shadow maps */
   int threads;
@@ -35,8 +35,8 @@ struct viewer_picture {
   struct viewer_lamps lamps;
   struct gl_sum sum;
   int64_t views;         /* of all pages, without black ones */
-  int64_t black, behind; /* views that are skipped: black ones, and those of pages that have
-                            nothing in front of them */
+  int64_t black, behind; /* views that are skipped: black ones, and those of pages with nothing in
+                            front of them */
   double done;           /* share of the views that are in */
   double kept;           /* share of the picture that `change` compares with */
   double change;         /* relative RMS, since about half as many views; INFINITY: not known */

@@ -1,11 +1,10 @@
-/* viewer_state.c - see viewer_state.h. */
 #include "viewer/viewer_state.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/key_values.h"
+#include "base/numbers.h"
 #include "base/vector.h"
 #include "microlight/levels.h"
 #include "viewer/viewer_camera.h"
@@ -24,10 +23,11 @@ enum result viewer_state_create(const struct viewer_world *world, const struct c
                                  .light_count = world->light_count,
                                  .sum = {.shadows = true, .groups = 4},
                                  .text = true};
-  for (int k = 0; k < world->aids->pages; ++k)
-    if (world->aids->levels[k].count > state->levels) state->levels = world->aids->levels[k].count;
+  for (int k = 0; k < world->prepared->pages; ++k)
+    if (world->prepared->levels[k].count > state->levels)
+      state->levels = world->prepared->levels[k].count;
   state->lights = calloc((size_t)world->light_count + 1, sizeof *state->lights);
-  if (!state->lights) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!state->lights) return result_no_memory(error);
   for (int k = 0; k < world->light_count; ++k) {
     const struct light *light = &world->lights[k];
     memcpy(state->lights[k].matrix, light->matrix, sizeof light->matrix);
@@ -217,8 +217,8 @@ void viewer_state_scroll(struct viewer_state *state, double steps) {
 bool viewer_key_read(const char **text, int *key, bool *shift) {
   static const char *const names[] = {"left",   "right",    "up",  "down",
                                       "pageup", "pagedown", "tab", "esc"};
-  const char *word = *text + strspn(*text, WORDS_BLANKS);
-  const char *end = word + strcspn(word, WORDS_BLANKS);
+  const char *word = *text + strspn(*text, NUMBERS_BLANKS);
+  const char *end = word + strcspn(word, NUMBERS_BLANKS);
   *shift = !strncmp(word, "shift+", 6);
   const char *name = *shift ? word + 6 : word;
   size_t length = (size_t)(end - name);

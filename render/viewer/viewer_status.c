@@ -1,4 +1,3 @@
-/* viewer_status.c - see viewer_status.h. */
 #include "viewer/viewer_status.h"
 
 #include <math.h>
@@ -48,8 +47,8 @@ static void say_selected(const struct viewer_picture *picture, const struct view
 /* Of the chosen light, or the first; all pages count. */
 static void say_views(const struct viewer_picture *picture, const struct viewer_state *state,
                       struct writer *writer) {
-  int light = state->selected > 0 ? state->selected - 1 : 0, number = 0;
-  for (int l = 0; l < light; ++l) number += picture->world->lights[l].count;
+  int light = state->selected > 0 ? state->selected - 1 : 0;
+  int number = light_pages(picture->world->lights, light);
   const struct light_axis *all = picture->world->lights[light].pages[0].axes;
   const struct light_axis *used = picture->sum.slides[number].page->axes;
   double in = picture->done * (double)picture->views;

@@ -1,4 +1,3 @@
-/* viewer_text.c - see viewer_text.h. */
 #include "viewer/viewer_text.h"
 
 #include <stdbool.h>
@@ -74,8 +73,7 @@ enum result viewer_text_create(int width, int height, struct viewer_text *text,
   *text = (struct viewer_text){.width = width, .height = height, .dot = dot < 1 ? 1 : dot};
   if (text->dot > 3) text->dot = 3;
   text->pixels = calloc((size_t)width * (size_t)height, 1);
-  return text->pixels ? RESULT_OK
-                      : result_fail(error, RESULT_MEMORY, "out of memory for the picture");
+  return text->pixels ? RESULT_OK : result_no_memory(error);
 }
 
 void viewer_text_free(struct viewer_text *text) {

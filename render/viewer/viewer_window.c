@@ -1,4 +1,3 @@
-/* viewer_window.c - see viewer_window.h. */
 #include "viewer/viewer_window.h"
 
 #include <stdio.h>
@@ -92,7 +91,7 @@ static enum result open_window(int width, int height, struct viewer_window *wind
 enum result viewer_window_create(int width, int height, struct viewer_state *state,
                                  struct viewer_window **window, struct error *error) {
   *window = calloc(1, sizeof **window);
-  if (!*window) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!*window) return result_no_memory(error);
   (*window)->state = state;
   enum result result = open_window(width, height, *window, error);
   if (result != RESULT_OK) {

@@ -2,8 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "cli/cli.h"
-#include "cmd/options.h"
+#include "base/numbers.h"
 #include "fuzz.h"
 #include "light/light_text.h"
 #include "scene/camera.h"
@@ -24,10 +23,10 @@ static void read_numbers(const char *text) {
   double numbers[3];
   uint64_t count = 0;
   int size[2];
-  if (options_number(text, numbers)) fuzz_check(isfinite(numbers[0]));
-  if (options_numbers(text, 3, numbers)) fuzz_check(isfinite(numbers[2]));
-  if (options_count(text, 1, 1024, &count)) fuzz_check(count >= 1 && count <= 1024);
-  if (cli_parse_size(text, size)) fuzz_check(size[0] >= 1 && size[1] >= 1);
+  if (numbers_real(text, 1, numbers)) fuzz_check(isfinite(numbers[0]));
+  if (numbers_real(text, 3, numbers)) fuzz_check(isfinite(numbers[2]));
+  if (numbers_whole(text, 1, 1024, &count)) fuzz_check(count >= 1 && count <= 1024);
+  if (numbers_size(text, size)) fuzz_check(size[0] >= 1 && size[1] >= 1);
 }
 
 static void read_keys(const char *text) {

@@ -113,7 +113,7 @@ static void hold(struct trial *trial, const struct lamp *lamp, enum gather_metho
   trial_note(trial, method, never ? NAN : isinf(may) ? 0 : off / most, may);
   if (trial->verbose)
     printf("  %-12s %.17g %.17g %.17g for views' %.17g %.17g %.17g; floats can change %.3g of it\n",
-           gather_method_name(method), rgb[0], rgb[1], rgb[2], views->sum[0], views->sum[1],
+           gather_methods[method].name, rgb[0], rgb[1], rgb[2], views->sum[0], views->sum[1],
            views->sum[2], views->spread / most);
 }
 

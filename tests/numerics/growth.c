@@ -197,7 +197,7 @@ void row_growth(struct trial *trial) {
     trial_note(trial, followed[which], jump, may);
     if (trial->verbose)
       printf("  %s: changes most from 10^%.17g to 10^%.17g: %g to %g\n",
-             gather_method_name(followed[which]), steps[worst].x, steps[worst + 1].x,
+             gather_methods[followed[which]].name, steps[worst].x, steps[worst + 1].x,
              steps[worst].error[which][0], steps[worst + 1].error[which][0]);
   }
 }

@@ -61,7 +61,7 @@ void growth_write_svg(FILE *file, const struct growth *growth) {
                 "over views. ");
   for (int curve = 0; curve < CURVES; ++curve)
     fprintf(file, "<b style='color:%s'>%s</b> ", curves[curve].colour,
-            gather_method_name(curves[curve].method));
+            gather_methods[curves[curve].method].name);
   fprintf(file, "</p>\n");
   for (int axis = 0; axis < GROWTH_AXES; ++axis) draw_axis(file, growth, axis);
 }
@@ -76,7 +76,7 @@ bool growth_write_table(const char *path, const struct growth *growth) {
     const struct growth_axis *about = &growth_axes[axis];
     fprintf(file, "\"%s\"", about->name);
     for (int curve = 0; curve < CURVES; ++curve)
-      fprintf(file, " %s", gather_method_name(curves[curve].method));
+      fprintf(file, " %s", gather_methods[curves[curve].method].name);
     for (int bin = 0; bin < GROWTH_BINS; ++bin) {
       fprintf(file, "\n%g",
               pow(10, about->low + (about->high - about->low) * (bin + 0.5) / GROWTH_BINS));

@@ -24,7 +24,7 @@
 #include "render/helpers.h"
 
 /* All of gather.h, gl the last. */
-enum { NUMERICS_ROWS_MAX = 40, NUMERICS_METHODS = GATHER_GL + 1 };
+enum { NUMERICS_ROWS_MAX = 40, NUMERICS_METHODS = GATHER_METHODS };
 
 /* Less light than this of what the lamp could send from all directions is none. */
 #define NUMERICS_DARK 1e-30

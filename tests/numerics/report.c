@@ -32,7 +32,7 @@ int report_print(const struct tally table[][NUMERICS_METHODS], double seconds) {
   int missed = 0;
   uint64_t values = 0, stated = 0;
   printf("%-17s", "");
-  for (int k = 0; k < methods; ++k) printf(" %10.10s", gather_method_name((enum gather_method)k));
+  for (int k = 0; k < methods; ++k) printf(" %10.10s", gather_methods[k].name);
   printf("\n");
   for (int row = 0; row < numerics_row_count; ++row) {
     printf("%-17s", numerics_rows[row].name);
@@ -51,8 +51,8 @@ int report_print(const struct tally table[][NUMERICS_METHODS], double seconds) {
       if (!(tally->share <= 1))
         printf(
             "missed: %s by %s: error %.3g, %.3g of what is allowed: make stability CASE='%s %u'\n",
-            numerics_rows[row].name, gather_method_name((enum gather_method)k), tally->error,
-            tally->share, numerics_rows[row].name, tally->seed);
+            numerics_rows[row].name, gather_methods[k].name, tally->error, tally->share,
+            numerics_rows[row].name, tally->seed);
     }
   if (!gl_is_here(&why)) printf("no column gl: %s\n", why);
   printf("%llu values, %llu of them with an error stated; %d cells missed; %.0f s\n",
@@ -85,8 +85,7 @@ bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS]
     return false;
   }
   fprintf(file, "%s%s<table>\n<tr><th>", head, legend);
-  for (int k = 0; k < methods; ++k)
-    fprintf(file, "<th>%s", gather_method_name((enum gather_method)k));
+  for (int k = 0; k < methods; ++k) fprintf(file, "<th>%s", gather_methods[k].name);
   for (int row = 0; row < numerics_row_count; ++row) {
     const struct numerics_row *about = &numerics_rows[row];
     fprintf(file, "\n<tr><td>%s<small>%s; by %s</small>", about->name, about->text, about->oracle);

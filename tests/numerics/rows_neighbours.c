@@ -82,7 +82,7 @@ void row_neighbours(struct trial *trial) {
                                              .occlusion = occlusion,
                                              .shadow_grid = 4,
                                              .shadow_edge = 8};
-    if (k == GATHER_CLOSED) continue; /* takes neither highlights nor shadows */
+    if (gather_methods[k].matte_only || gather_methods[k].sum == METHOD_OPENGL) continue;
     lamp_sum_many(&lamp, &settings, receivers, COUNT, all);
     sum_otherwise(trial, &lamp, &settings, receivers, other);
     for (int r = 0; r < COUNT; ++r)

@@ -52,7 +52,7 @@ static void test_row(void **state) {
     const struct tally *tally = &few[row][k];
     if (!(tally->share <= 1))
       fail_msg("%s by %s: error %.3g, %.3g of what is allowed, seed %u", numerics_rows[row].name,
-               gather_method_name((enum gather_method)k), tally->error, tally->share, tally->seed);
+               gather_methods[k].name, tally->error, tally->share, tally->seed);
   }
 }
 
@@ -123,8 +123,8 @@ static int again(const char *name, const char *seed) {
     run(row, (uint32_t)strtoul(seed, NULL, 10), tally, NULL, true);
     for (int k = 0; k < NUMERICS_METHODS; ++k)
       if (tally[k].values > 0)
-        printf("%-12s error %.3g, %.3g of what is allowed\n",
-               gather_method_name((enum gather_method)k), tally[k].error, tally[k].share);
+        printf("%-12s error %.3g, %.3g of what is allowed\n", gather_methods[k].name,
+               tally[k].error, tally[k].share);
     return 0;
   }
   fprintf(stderr, "test_numerics: %s: no such row; there are:", name);

@@ -23,7 +23,7 @@ void trial_note(struct trial *trial, enum gather_method method, double error, do
   if (share > tally->share) tally->share = share;
   if (error > tally->error) tally->error = error;
   if (trial->verbose && share > 1)
-    printf("  %s: error %.3g, allowed %.3g\n", gather_method_name(method), error, allowed);
+    printf("  %s: error %.3g, allowed %.3g\n", gather_methods[method].name, error, allowed);
 }
 
 double method_rounding(enum gather_method method) {
@@ -87,9 +87,9 @@ struct gather_counts lamp_sum_many(const struct lamp *lamp, const struct gather_
   settings.lights = &lamp->light;
   settings.light_count = 1;
   settings.level = -1;
-  if (settings.method == GATHER_LEVELS || settings.method == GATHER_PAPER_LEVELS)
-    settings.aids = &lamp->levels;
-  if (settings.method == GATHER_CUT) settings.aids = &lamp->trees;
+  const enum method_makes makes = gather_methods[settings.method].makes;
+  if (makes == METHOD_LEVELS) settings.prepared = &lamp->levels;
+  if (makes == METHOD_TREES) settings.prepared = &lamp->trees;
   return sum_light(&settings, receivers, count, gathered);
 }
 
@@ -210,6 +210,7 @@ void trial_hold_value(struct trial *trial, const struct lamp *lamp, const struct
   const double asked = tolerances[random_choose(&trial->seed, 5)];
   if (trial->verbose) print_receiver(receiver, exact);
   for (int k = 0; k < GATHER_METHODS; ++k) {
+    if (gather_methods[k].sum == METHOD_OPENGL) continue;
     const enum gather_method method = (enum gather_method)k;
     struct gathered got = {{0}, {0}, 0};
     double error[3];
@@ -219,7 +220,7 @@ void trial_hold_value(struct trial *trial, const struct lamp *lamp, const struct
     if (method == GATHER_REFERENCE || method == GATHER_CLOSED) allowed = exact_methods;
     trial_note(trial, method, look_error(&look, method, got.irradiance, allowed, error), allowed);
     if (trial->verbose)
-      printf("  %-12s %.17g %.17g %.17g, predicted %g\n", gather_method_name(method),
+      printf("  %-12s %.17g %.17g %.17g, predicted %g\n", gather_methods[method].name,
              got.irradiance[0], got.irradiance[1], got.irradiance[2], got.error);
   }
 }

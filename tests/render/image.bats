@@ -173,7 +173,7 @@ refuses() {
   refuses toward "${good[@]}" --light 'letter_f.tif at=1,1,1 toward=1,1,1'
   refuses scale "${good[@]}" --light 'letter_f.tif scale=0'
   refuses "auto, reference, paper, midpoint, pi, closed, views" "${good[@]}" --light letter_f.tif --method best
-  refuses 'paper and paper-levels' "${good[@]}" --light letter_f.tif --seed 1
+  refuses 'it is for paper, paper-levels' "${good[@]}" --light letter_f.tif --seed 1
   refuses 'not with --method pi' "${good[@]}" --light letter_f.tif --method pi --level 2
   refuses shadow-grid "${good[@]}" --light letter_f.tif --method gl --shadow-grid 8
   refuses 'it is for gl' "${good[@]}" --light letter_f.tif --shadow-map 512
@@ -182,6 +182,7 @@ refuses() {
   refuses tolerance "${good[@]}" --light letter_f.tif --tolerance nan
   refuses threads "${good[@]}" --light letter_f.tif --threads 0
   refuses shadow-edge "${good[@]}" --light letter_f.tif --shadow-grid 32 --shadow-edge 16
+  refuses 'shadow-edge 4097: must be a whole number from 1 to 4096' "${good[@]}" --light letter_f.tif --shadow-edge 4097
 }
 
 @test "bad sizes, cameras and outputs" {

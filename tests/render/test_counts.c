@@ -99,7 +99,7 @@ TEST(test_skipped) {
       {.position = {4, 0.1, 1}, .normal = {0, 0, -1}},       /* beside the window */
       {.position = {0.1, 0.1, 1}, .normal = {0, 0.6, 0.8}}}; /* all below its tangent plane */
   for (int method = GATHER_AUTO; method < GATHER_METHODS; ++method) {
-    if (method == GATHER_LEVELS || method == GATHER_PAPER_LEVELS) continue; /* sum levels */
+    if (gather_methods[method].makes == METHOD_LEVELS) continue;
     for (size_t k = 0; k < sizeof skipped / sizeof skipped[0]; ++k) {
       struct gather_counts counts = count(&light, (enum gather_method)method, &skipped[k]);
       assert_int_equal(counts.pages_behind, 1);

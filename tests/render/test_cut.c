@@ -30,12 +30,12 @@ static double radiance(enum lamp lamp, const double at[4]) {
 /* One page along z at the origin, with an aperture of 1 x 1. */
 struct lit {
   struct light light;
-  struct gather_prepared aids;
+  struct gather_prepared prepared;
 };
 
 static void prepare(struct lit *lit, int threads) {
   struct error error;
-  assert_int_equal(gather_prepare(&lit->light, 1, GATHER_CUT, 0, threads, &lit->aids, &error),
+  assert_int_equal(gather_prepare(&lit->light, 1, GATHER_CUT, 0, threads, &lit->prepared, &error),
                    RESULT_OK);
 }
 
@@ -59,7 +59,7 @@ static void make(struct lit *lit, enum lamp lamp, const int samples[SLAB_AXES], 
 }
 
 static void release(struct lit *lit) {
-  gather_prepared_free(&lit->aids);
+  gather_prepared_free(&lit->prepared);
   light_free(&lit->light);
 }
 
@@ -87,7 +87,7 @@ static void sum(const struct lit *lit, enum gather_method method, double toleran
                 const struct receiver *receivers, int count, struct gathered *gathered) {
   const struct gather_settings settings = {.lights = &lit->light,
                                            .light_count = 1,
-                                           .aids = method == GATHER_CUT ? &lit->aids : NULL,
+                                           .prepared = method == GATHER_CUT ? &lit->prepared : NULL,
                                            .method = method,
                                            .tolerance = tolerance,
                                            .level = -1};
@@ -129,10 +129,9 @@ static double nodes(const struct lit *lit, double tolerance, const struct receiv
     struct seen_page seen;
     double irradiance[3];
     assert_true(seen_page_find(&lit->light.pages[0], &receivers[k], &seen));
-    if (!cut_sum(lit->aids.trees[0], &seen, tolerance, 0, work, irradiance, &counts)) continue;
+    if (!cut_sum(lit->prepared.trees[0], &seen, tolerance, work, irradiance, &counts)) continue;
     assert_true(counts.error <= tolerance);
     ++*taken;
-    cut_finish(work);
   }
   cut_work_free(work);
   return *taken ? (double)counts.nodes / *taken : 0;
@@ -247,7 +246,7 @@ TEST(test_linear) {
   sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, once);
   struct slab *slab = &lit.light.pages[0].slab;
   for (size_t k = 0; k < 3 * slab_sample_count(slab); ++k) slab->rgb[k] *= 1024;
-  gather_prepared_free(&lit.aids);
+  gather_prepared_free(&lit.prepared);
   prepare(&lit, 2);
   sum(&lit, GATHER_CUT, 1e-2, receivers, COUNT, more);
   for (int k = 0; k < COUNT; ++k)
@@ -266,14 +265,6 @@ TEST(test_threads) {
     release(&lit);
   }
   assert_memory_equal(all[0], all[1], sizeof all[0]);
-}
-
-/* All views at once. */
-static void sum_views(const struct lit *lit, const struct seen_page *seen, int nodes,
-                      struct cut_views *views, double rgb[3]) {
-  assert_true(cut_views_prepare(lit->aids.trees[0], seen, nodes, views));
-  cut_views_sum(&views, 1);
-  cut_views_light(views, rgb);
 }
 
 static bool is_above(const struct seen_page *seen) {
@@ -307,7 +298,7 @@ static void hold_views(enum lamp lamp, double distance, int done[CUT_VIEWS_NODES
       const int nodes = is_above(&seen) ? cut_views_nodes(&seen, pow(10, -digit), &error) : 0;
       if (nodes == 0) continue;
       assert_true(error <= pow(10, -digit));
-      sum_views(&lit, &seen, nodes, views, rgb);
+      assert_true(cut_views_light(lit.prepared.trees[0], &seen, nodes, views, rgb));
       double light = fmax(largest(exact[r].irradiance), 1e-4 * most / pow(seen.height, 2));
       for (int c = 0; c < 3; ++c) {
         double off = fabs(rgb[c] - exact[r].irradiance[c]);
@@ -330,8 +321,12 @@ TEST(test_views) {
 TEST(test_memory) {
   struct lit lit;
   make(&lit, CONSTANT, small, INFINITY, 2);
-  double stated = 64.0 * (1 + 4 + 16) * 32 * 32;
-  assert_true(fabs(cut_bytes(lit.aids.trees[0]) / stated - 1) < 0.05);
+  const struct cut_tree *tree = lit.prepared.trees[0];
+  size_t nodes = 0;
+  for (int level = 0; tree->level[level].images; ++level)
+    nodes += (size_t)(tree->axes[0].count[level] * tree->axes[1].count[level]);
+  assert_int_equal(nodes, 1 + 4 + 16);
+  assert_int_equal(CUT_FLOATS * sizeof(float) + sizeof(struct cut_estimate), 64);
   release(&lit);
 }
 
@@ -349,9 +344,8 @@ TEST(test_refuses) {
     receiver.shininess = kind == 1 ? 10 : 0;
     if (kind == 2) memcpy(receiver.normal, along, sizeof along);
     assert_true(seen_page_find(&lit.light.pages[0], &receiver, &seen));
-    assert_int_equal(cut_sum(lit.aids.trees[0], &seen, 1e-2, 0, work, irradiance, &counts),
+    assert_int_equal(cut_sum(lit.prepared.trees[0], &seen, 1e-2, work, irradiance, &counts),
                      kind == 0);
-    cut_finish(work);
     if (kind == 0) assert_true(fabs(irradiance[0] * 20 * 20 - 1) < 0.01);
   }
   assert_int_equal(counts.nodes, 1);

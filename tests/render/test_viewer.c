@@ -21,7 +21,7 @@ static struct {
   struct scene_texture texture;
   float texels[12];
   struct light lights[LIGHTS];
-  struct gather_prepared aids;
+  struct gather_prepared prepared;
   struct occlusion *occlusion;
   struct viewer_world world;
 } all;
@@ -115,12 +115,13 @@ static int make_all(void **state) {
   make_light(0, samples[0], (const double[]){0, -1, 0}, (const double[]){0.1, 2, 0.3});
   make_light(1, samples[1], (const double[]){0, 0, 1}, (const double[]){-0.2, 0.8, -1.8});
   make_light(2, samples[2], (const double[]){0, 0, -1}, (const double[]){0.3, 0.7, 0.3});
-  if (gather_prepare(all.lights, LIGHTS, GATHER_GL, 1, 1, &all.aids, &error) != RESULT_OK) return 1;
+  if (gather_prepare(all.lights, LIGHTS, GATHER_GL, 1, 1, &all.prepared, &error) != RESULT_OK)
+    return 1;
   if (occlusion_create(&all.scene, &all.occlusion, &error) != RESULT_OK) return 1;
   all.world = (struct viewer_world){.scene = &all.scene,
                                     .lights = all.lights,
                                     .light_count = LIGHTS,
-                                    .aids = &all.aids,
+                                    .prepared = &all.prepared,
                                     .background = {0.01, 0.02, 0.03},
                                     .map_size = 256,
                                     .threads = 2};
@@ -133,7 +134,7 @@ static int free_all(void **state) {
   (void)state;
   gl_context_free(all.context);
   occlusion_free(all.occlusion);
-  gather_prepared_free(&all.aids);
+  gather_prepared_free(&all.prepared);
   for (int k = 0; k < LIGHTS; ++k) light_free(&all.lights[k]);
   return 0;
 }
@@ -159,15 +160,16 @@ static struct picture take(struct viewer_picture *picture, int shares) {
 /* The same by a new picture and a new hierarchy, made for the lights where they now are. */
 static struct picture take_anew(const struct viewer_sum *how) {
   struct error error;
-  struct gather_prepared aids = {0};
+  struct gather_prepared prepared = {0};
   struct viewer_world world = all.world;
   struct viewer_picture picture;
-  world.aids = &aids;
-  assert_int_equal(gather_prepare(all.lights, LIGHTS, GATHER_GL, 1, 1, &aids, &error), RESULT_OK);
+  world.prepared = &prepared;
+  assert_int_equal(gather_prepare(all.lights, LIGHTS, GATHER_GL, 1, 1, &prepared, &error),
+                   RESULT_OK);
   assert_int_equal(viewer_picture_create(&world, how, WIDTH, HEIGHT, &picture, &error), RESULT_OK);
   struct picture taken = take(&picture, 1);
   viewer_picture_free(&picture);
-  gather_prepared_free(&aids);
+  gather_prepared_free(&prepared);
   return taken;
 }
 
@@ -179,14 +181,14 @@ static struct picture trace(void) {
   struct image_settings settings = {.shade = {.scene = &all.scene,
                                               .occlusion = all.occlusion,
                                               .lights = all.lights,
-                                              .light_count = LIGHTS},
-                                    .camera = camera,
+                                              .light_count = LIGHTS,
+                                              .camera = camera,
+                                              .width = WIDTH,
+                                              .height = HEIGHT},
                                     .gather = {.lights = all.lights,
                                                .light_count = LIGHTS,
                                                .method = GATHER_VIEWS,
                                                .tolerance = 0.01},
-                                    .width = WIDTH,
-                                    .height = HEIGHT,
                                     .samples = 1,
                                     .threads = 2};
   memcpy(settings.shade.background, all.world.background, sizeof all.world.background);

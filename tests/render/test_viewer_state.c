@@ -21,9 +21,9 @@ static struct light lights[2] = {
     {.path = "a lamp.tif", .count = 1, .pages = &pages[0], .gain = 2, .scale = 1},
     {.path = "b.tif", .count = 1, .pages = &pages[1], .gain = 1, .scale = 2}};
 static struct levels levels[2] = {{.count = 3}, {.count = 1}};
-static struct gather_prepared aids = {.pages = 2, .levels = levels};
+static struct gather_prepared prepared = {.pages = 2, .levels = levels};
 static struct viewer_world world = {
-    .lights = lights, .light_count = 2, .aids = &aids, .map_size = 512};
+    .lights = lights, .light_count = 2, .prepared = &prepared, .map_size = 512};
 
 static struct viewer_state start(void) {
   static const double first[4][3] = {{0, 2, 0}, {-2, 0, 0}, {0, 0, 2}, {1, 2, 3}};
