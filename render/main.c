@@ -1,5 +1,5 @@
-/* main.c - renderslab: lights things with slabs. A table of subcommands; each
- * lives in its own cmd_NAME.c. */
+/* main.c - renderslab: lights things with slabs. A table of subcommands, each in its own
+ * cmd_NAME.c. */
 #include "cli/cli.h"
 #include "cmd/commands.h"
 

@@ -1,5 +1,5 @@
-/* simd.h - vectors of the compiler (gcc's and clang's extension), and functions that exist
- * once for each instruction set and are chosen when they are called.
+/* simd.h - vectors of the compiler (gcc's and clang's extension), and functions that are compiled
+ * once for each instruction set and chosen when they are called.
  *
  * No operation is fused (-ffp-contract=off), so all of them give the same bits. */
 #ifndef SIMD_H
@@ -9,7 +9,7 @@ typedef float simd_float8 __attribute__((vector_size(32)));
 typedef float simd_float4 __attribute__((vector_size(16)));
 typedef double simd_double4 __attribute__((vector_size(32)));
 
-/* The same anywhere in an array of floats or doubles. */
+/* The same at any address of an array of floats or doubles. */
 typedef float simd_floats8 __attribute__((vector_size(32), aligned(4), may_alias));
 typedef float simd_floats4 __attribute__((vector_size(16), aligned(4), may_alias));
 typedef double simd_doubles4 __attribute__((vector_size(32), aligned(8), may_alias));
@@ -28,8 +28,8 @@ SIMD_INLINE simd_float4 simd_larger(simd_float4 a, simd_float4 b) {
   return (simd_float4)(((simd_int4)a & more) | ((simd_int4)b & ~more));
 }
 
-/* Defines `void NAME parameters`, which does what NAME_body does. (gcc's and clang's
- * target_clones would say it shorter, but clang 14's are not found by other files.) */
+/* Defines `void NAME parameters`, which does what NAME_body does. (The attribute target_clones
+ * would be shorter, but clang 14 does not export its functions.) */
 #ifdef __x86_64__
 #define SIMD_DISPATCH(name, parameters, arguments)                                                 \
   __attribute__((target("avx2"))) static void name##_avx2 parameters {                             \
@@ -48,7 +48,7 @@ SIMD_INLINE simd_float4 simd_larger(simd_float4 a, simd_float4 b) {
   }
 #endif
 
-/* Lanes in an array; counts are rounded up to it. */
+/* Room in arrays is rounded up to so many elements. */
 enum { SIMD_LANES = 8 };
 
 #endif

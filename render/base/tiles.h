@@ -1,6 +1,6 @@
-/* tiles.h - work in independent pieces by several threads. Which thread does a piece is left
- * to chance, so a piece must not depend on any other: then the results don't depend on the
- * number of threads either. */
+/* tiles.h - work in independent pieces by several threads. Which thread does which piece is not
+ * determined: a piece must not depend on any other, so that results do not depend on the number
+ * of threads. */
 #ifndef TILES_H
 #define TILES_H
 

@@ -1,5 +1,4 @@
-/* commands.h - renderslab's subcommands, each in its own cmd_NAME.c, for the table
- * in main.c. They are called as slab_options.h says. */
+/* commands.h - renderslab's subcommands, each in its own cmd_NAME.c, for the table in main.c. */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 

@@ -1,4 +1,4 @@
-/* gl_context.h - OpenGL 4.3 without a window (by EGL), and what is asked of any context.
+/* gl_context.h - OpenGL 4.3 without a window (by EGL), and checks and errors of any context.
  *
  * A context belongs to the thread that made it. Messages say what is missing, and that
  * --method views is the same sum on the CPU. */
@@ -24,11 +24,11 @@ struct gl_limits {
 /* Checks the current context: version, float targets. */
 enum result gl_context_check(struct gl_limits *limits, struct error *error);
 
-/* As result_fail, with the way out put behind it. */
+/* As result_fail; adds to the message that --method views needs no OpenGL. */
 enum result gl_fail(struct error *error, enum result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* What OpenGL has to complain about, if anything. `what` was being done: "the shadow maps". */
+/* Fails if OpenGL has an error pending. `what` was being made: "the shadow maps". */
 enum result gl_check(const char *what, struct error *error);
 
 #endif

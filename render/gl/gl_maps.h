@@ -1,9 +1,10 @@
-/* gl_maps.h - shadow maps: what stands next to a point of an aperture, in all directions of the
- * window. They are the layers of one texture, which has room for some at a time.
+/* gl_maps.h - shadow maps: the depth of the nearest surface as seen from a point of an aperture,
+ * in all directions of the window. They are the layers of one texture, which has room for some at
+ * a time.
  *
- * A shadow's edge is off by at most a texel of the map, and things nearer than a texel to what
- * they stand on throw none there. A map that several views share stands in the middle of
- * them: in the rim of shadows it takes the group's light as whole or none. */
+ * A shadow's edge is off by at most a texel of the map, and occluders nearer than a texel to the
+ * surface that they stand on cast no shadow there. A map that several views share is seen from
+ * the middle of them: in the penumbra it takes the group's light as whole or none. */
 #ifndef GL_MAPS_H
 #define GL_MAPS_H
 
@@ -35,7 +36,7 @@ void gl_maps_free(struct gl_maps *maps); /* zeroed maps allowed */
 void gl_maps_draw(struct gl_maps *maps, const struct gl_slides *slides, int first, int count,
                   int layer);
 
-/* What a program that reads the maps has to know; `first` is the group whose map is, or would
+/* Sets the uniforms of a program that reads the maps; `first` is the group whose map is, or would
  * be, in layer 0, and `unit` the first of two texture units. */
 void gl_maps_set(const struct gl_maps *maps, const struct gl_slides *slides, int first,
                  unsigned program, int unit);

@@ -1,4 +1,3 @@
-/* gl_program.c - see gl_program.h. */
 #include "gl/gl_program.h"
 
 #include <epoxy/gl.h>

@@ -13,8 +13,7 @@ extern const char gl_all_vert[], gl_sum_frag[], gl_map_vert[], gl_map_frag[], gl
 enum result gl_program_make(const char *vertex, const char *fragment, const char *defines,
                             unsigned *program, struct error *error);
 
-/* Uniforms of the program in use, as of `program`; those that a variant has no use for are
- * skipped. */
+/* Sets uniforms of a program; those that a variant does not have are skipped. */
 void gl_set_int(unsigned program, const char *name, int value);
 void gl_set_floats(unsigned program, const char *name, int count, const double *values);
 void gl_set_frame(unsigned program, const double frame[3][3]);

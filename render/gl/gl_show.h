@@ -1,4 +1,4 @@
-/* gl_show.h - the picture: from what receivers got to radiance, and on to a screen. */
+/* gl_show.h - the picture: from the receivers' light to radiance, and on to a screen. */
 #ifndef GL_SHOW_H
 #define GL_SHOW_H
 
@@ -11,8 +11,8 @@ struct gl_show {
   unsigned radiance, target;     /* the picture; row 0 is the bottom one */
   unsigned before, full;         /* earlier ones */
   unsigned lamps;                /* radiance of lamps that are seen, and their distance; 0: none */
-  unsigned words;                /* of the screen: one byte a pixel, row 0 at the top */
-  unsigned samples, few;         /* of the change, and their frame buffer */
+  unsigned words;                /* text on the screen: one byte a pixel, row 0 at the top */
+  unsigned samples, few;         /* pixels of which the change is measured; their frame buffer */
   unsigned draw, compare, shown; /* programs */
   unsigned empty;                /* vertex array without attributes */
 };
@@ -24,7 +24,7 @@ void gl_show_free(struct gl_show *show); /* zeroed show allowed */
 enum result gl_show_resize(struct gl_show *show, const struct gl_receivers *receivers,
                            struct error *error);
 
-/* The lamps that are seen: four floats a pixel, row 0 at the top. */
+/* Sets the lamps that are seen (viewer_lamps.h): four floats a pixel, row 0 at the top. */
 void gl_show_set_lamps(struct gl_show *show, const float *pixels);
 
 /* Draws the picture: shows + (diffuse E + specular G) unit/pi, where E and G are what the

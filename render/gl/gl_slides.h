@@ -1,10 +1,10 @@
 /* gl_slides.h - a page's views as slides, which are projected onto receivers (section 4.3).
  *
  * A slide is a layer of a texture array; where there are more views than an array has layers,
- * there are several arrays. Black views are left out. The others are in an order in which
- * every first part of them is spread over the aperture: one can stop anywhere, and go on.
+ * there are several arrays. Black views are left out. The others are ordered so that the first n
+ * of them are spread over the aperture, for any n: a sum can stop anywhere, and go on.
  *
- * Some views share a shadow map, a group. There are `groups` x `groups` of them, or one for each
+ * The views of a group share a shadow map. There are `groups` x `groups` groups, or one for each
  * view. */
 #ifndef GL_SLIDES_H
 #define GL_SLIDES_H
@@ -30,8 +30,8 @@ struct gl_slides {
   double group_half[2];             /* sides of a group, halved */
   unsigned views, views_buffer;     /* `at` as a texture */
   unsigned middles, middles_buffer; /* `middle` as a texture */
-  bool behind;                      /* nothing is in front: gl_sum.h skips it; false */
-  bool *drawn;                      /* [groups]: their maps, where they are kept; false */
+  bool behind; /* nothing is in front of the page: gl_sum.h skips it; false at first */
+  bool *drawn; /* [groups]: is the map drawn, where maps are kept; false at first */
 };
 
 /* The page outlives the slides. `gain` multiplies radiance; `origin` is subtracted from

@@ -1,11 +1,11 @@
 /* gl_sum.h - the sum over views on a graphics processor (the paper's section 4.3, equation 4):
  * the method `views` of gather.h, for a whole picture of receivers at once.
  *
- * Receivers are textures of floats: from camera rays on the CPU (gl_gather.h), or drawn. What
- * they get is added up in two more, so that views may be added one by one, by parts, or all in
- * one pass; all give the same to float rounding. Shadow maps are kept where all find room. Light is
- * zero below the receiver's tangent plane, and at most 1e30 times the unit: beside a view's middle
- * its inverse square has no bound. Shadows by gl_maps.h. */
+ * Receivers are textures of floats: from camera rays on the CPU (gl_gather.h), or rasterised
+ * (gl_raster.h). Their light is added up in two more, so that views may be added one by one, by
+ * parts, or all in one pass; all give the same to float rounding. Shadows are by gl_maps.h, whose
+ * maps are kept where all find room. Light is zero below the receiver's tangent plane, and at most
+ * 1e30 times the unit: beside a view's middle its inverse square has no bound. */
 #ifndef GL_SUM_H
 #define GL_SUM_H
 
@@ -15,7 +15,7 @@
 #include "gl/gl_slides.h"
 #include "microlight/levels.h"
 
-/* The picture of receivers and of what they got; owned textures of width x height. */
+/* A picture of receivers and of their light; owned textures of width x height. */
 struct gl_receivers {
   int width, height;
   unsigned position; /* relative to the origin; w: exponent of the highlight, 0 for matte,
@@ -61,12 +61,12 @@ enum result gl_sum_create(const struct gl_sum_settings *settings, struct gl_sum 
                           struct error *error);
 void gl_sum_free(struct gl_sum *sum); /* zeroed sum allowed */
 
-/* Sets what the receivers got to nothing. */
+/* Sets the receivers' light to 0. */
 void gl_sum_clear(const struct gl_receivers *receivers);
 
 /* Adds a share of each page's views, from `from` to `to` of 0..1; highlights too if `gloss`. A
- * view in which a share ends counts by its part, so that what was added from 0 to x, divided
- * by x, estimates the whole, of pages with few views too. */
+ * view in which a share ends counts by its part, so that the sum from 0 to x, divided by x,
+ * estimates the whole, of pages with few views too. */
 enum result gl_sum_add(struct gl_sum *sum, const struct gl_receivers *receivers, double from,
                        double to, bool gloss, struct error *error);
 

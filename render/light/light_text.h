@@ -1,4 +1,4 @@
-/* light_text.h - `LIGHT` of the command line, as words: where a canned light is. */
+/* light_text.h - parses `LIGHT` of the command line (light.h): a file and where the light is. */
 #ifndef LIGHT_TEXT_H
 #define LIGHT_TEXT_H
 

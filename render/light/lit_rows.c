@@ -1,4 +1,3 @@
-/* lit_rows.c - see lit_rows.h. */
 #include "light/lit_rows.h"
 
 #include <limits.h>

@@ -1,5 +1,5 @@
-/* lit_rows.h - which parts of a page are black: there is nothing to sum there. Lamps shine through
- * a disc in a square aperture, or into a narrow beam; much of their slabs is black. */
+/* lit_rows.h - which parts of a page are black and need no sum. Lamps shine through a disc in a
+ * square aperture, or into a narrow beam: much of their slabs is black. */
 #ifndef LIT_ROWS_H
 #define LIT_ROWS_H
 
@@ -11,10 +11,10 @@ struct lit_row {
   int near[2], far[2];
 };
 
-/* The rows of a slab's raster, to be freed; NULL without memory. */
+/* The rows of a slab's raster, to be freed; NULL: no memory. */
 struct lit_row *lit_rows(const struct slab *slab);
 
-/* What is lit in either. */
+/* The ranges that hold both rows'. */
 struct lit_row lit_rows_join(const struct lit_row *a, const struct lit_row *b);
 
 #endif

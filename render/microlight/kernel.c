@@ -1,4 +1,3 @@
-/* kernel.c - see kernel.h. */
 #include "microlight/kernel.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* kernel.h - how much light a receiver takes from a direction, in the frame of a page.
+/* kernel.h - the weight of radiance in a receiver's irradiance, or in its highlight, by direction,
+ * in the frame of a page.
  *
  * With x and y the slopes from the receiver to a point of the aperture (strips.h), the
  * direction to it is (x, y, -1)/r, r^2 = 1 + x^2 + y^2, the solid angle dx dy/r^3, and

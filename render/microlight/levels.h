@@ -23,8 +23,8 @@ void levels_move(struct levels *levels, const struct light_page *page);
 
 void levels_free(struct levels *levels); /* NULL allowed; frees what it points to and itself not */
 
-/* The level at which a uv cell, seen from the receiver, covers at most about one st cell: from
- * there on the samples fall linearly with the solid angle of the aperture. */
+/* The highest level at which a uv cell, seen from the receiver, covers at most about one st cell.
+ * So the number of samples is proportional to the solid angle of the aperture. */
 int levels_choose(const struct levels *levels, const struct seen_page *seen);
 
 #endif

@@ -1,11 +1,10 @@
-/* paper.c - see paper.h. */
 #include "microlight/paper.h"
 
 #include <math.h>
 
 #include "base/simd.h"
 
-/* A uniform number in [0,1) from a seed, which moves on (Steele, Lea and Flood, "Fast
+/* A uniform number in [0,1) from a seed, which is advanced (Steele, Lea and Flood, "Fast
  * splittable pseudorandom number generators", 2014). */
 static double uniform(uint64_t *seed) {
   uint64_t z = *seed += 0x9e3779b97f4a7c15u;

@@ -1,4 +1,3 @@
-/* receiver.c - see receiver.h. */
 #include "microlight/receiver.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* receiver.h - someone in the scene who gathers light, what that is, and the work it took. */
+/* receiver.h - a point of the scene that gathers light, what it gathers, and the work done. */
 #ifndef RECEIVER_H
 #define RECEIVER_H
 
@@ -8,7 +8,7 @@
 struct receiver {
   double position[3], normal[3]; /* scene space; normal unit */
   double lift[3];                /* unit geometric normal, along which shadow rays start */
-  double eye[3];                 /* unit, towards who looks; for gloss only */
+  double eye[3];                 /* unit, towards the camera; for highlights only */
   double shininess;              /* exponent of the highlight; 0: matte */
   uint64_t index;
 };
@@ -17,7 +17,8 @@ struct gathered {
   double irradiance[3];
   double gloss[3]; /* integral of L (N.H)^shininess over the solid angle above the tangent
                       plane; 0 for matte receivers */
-  double error;    /* predicted, relative: the largest of its pages'; INFINITY: not known */
+  double error;    /* predicted, relative, of the irradiance: the largest of its pages'; INFINITY:
+                      not known */
 };
 
 struct gather_counts {
@@ -26,8 +27,8 @@ struct gather_counts {
   uint64_t nodes;       /* at which the kernel was evaluated */
   uint64_t black;       /* micro lights that were skipped: all their samples are 0 */
   uint64_t shadow_rays;
-  uint64_t open_views;   /* views of a page for which none were traced: nothing between */
-  uint64_t pages_behind; /* pages that were skipped: the receiver is behind them, beside all
+  uint64_t open_views;   /* pages for which none were traced: nothing can stand between */
+  uint64_t pages_behind; /* pages that were skipped: the receiver is behind them or outside all
                             that they emit, or they are below its tangent plane */
   double error;          /* the largest of the receivers' */
 };

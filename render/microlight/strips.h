@@ -3,9 +3,9 @@
  * A receiver at height z over the uv plane, its foot at q along the axis, looks at the
  * point a of the aperture along the slope x = (a - q)/z. That ray has the st coordinate
  *     s = kappa q + (kappa z - 1) x,
- * one formula for both st planes. Slopes are free of units, and all is found relative to the
- * lowest slope that is visible: relative to the receiver much would be lost far from the aperture,
- * where all slopes are nearly the same; relative to the aperture, near it.
+ * one formula for both st planes. Slopes have no unit. All are found relative to the lowest
+ * visible slope, so that no digits cancel: neither far from the aperture, where all slopes are
+ * nearly the same, nor near it.
  *
  * The lines of the uv samples and the projected lines of the st samples merge into one
  * ascending list; between two of them, radiance is the product of two linear functions.
@@ -25,7 +25,7 @@ struct strip_taps {
 
 struct strip {
   double low, high; /* slopes; far away they may round to the same */
-  double width;     /* high - low > 0, to the last digit */
+  double width;     /* high - low > 0, exact to rounding */
   struct strip_taps taps;
   double near_weight[2], far_weight[2]; /* of the upper sample, at low and at high */
 };
@@ -43,9 +43,9 @@ void strips_free(struct strips *strips);
 enum result strips_find(const struct light_axis *axis, double q, double z, struct strips *strips,
                         struct error *error);
 
-/* One strip a uv sample, as wide as its cell and with its slope in the middle, if it is
- * visible: what a sum over views takes. Strips may reach over the window's edge. None for views
- * less than 1e-150 of their spacing away: as a point each would send more than numbers hold. */
+/* One strip for each uv sample that is visible, as wide as its cell and with its slope in the
+ * middle: for a sum over views. Strips may reach over the window's edge. None for views less than
+ * 1e-150 of their spacing away: as point lights they would be infinitely bright. */
 enum result strips_find_views(const struct light_axis *axis, double q, double z,
                               struct strips *strips, struct error *error);
 

@@ -1,4 +1,3 @@
-/* tangent.c - see tangent.h. */
 #include "microlight/tangent.h"
 
 #include <math.h>
@@ -6,9 +5,9 @@
 #include "base/simd.h"
 #include "microlight/rule.h"
 
-/* The plane n_x x + n_y y = n_z as a line over the axis along which it changes less: the
- * other coordinate, `inner`, is a function of this one, `outer`, with a slope of at most 1. Both
- * count from the strips' lower ends: far away, strips are narrow. */
+/* The plane n_x x + n_y y = n_z as a line: the coordinate `inner` as a function of the other,
+ * `outer`, chosen so that its slope is at most 1. Both count from the strips' lower ends: far away
+ * strips are narrow, and slopes would cancel. */
 struct cut {
   struct kernel kernel;          /* turned, so that x is the inner axis */
   const struct strip *strips[2]; /* along x and y */

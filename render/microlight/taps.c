@@ -1,4 +1,3 @@
-/* taps.c - see taps.h. */
 #include "microlight/taps.h"
 
 #include "base/simd.h"
@@ -19,7 +18,7 @@ SIMD_INLINE void taps_sum_row_body(const float *const rows[4], const double row_
   const float w0 = (float)row_weight[0], w1 = (float)row_weight[1];
   const float w2 = (float)row_weight[2], w3 = (float)row_weight[3];
   simd_float8 sum = {0}, far = {0};
-  int seen = -1; /* whose mix of rows `far` is: often the next column's near one */
+  int seen = -1; /* offset of the pair in `far`: often the next column's near one */
   for (int c = 0; c < count; ++c) {
     const struct taps_column *column = &columns[c];
     const int a = column->offset[0], b = column->offset[1];
@@ -42,7 +41,7 @@ SIMD_DISPATCH(taps_sum_row,
                const struct taps_column *columns, const float *factor, int count, double rgb[3]),
               (rows, row_weight, columns, factor, count, rgb))
 
-/* Four floats as doubles; written so that gcc sees one instruction. */
+/* Four floats as doubles, in a form that gcc makes one instruction of. */
 #define AS_DOUBLES(from) ((simd_double4){(from)[0], (from)[1], (from)[2], (from)[3]})
 
 /* The part of a cell that lies in one row: two pairs of pixels. */
@@ -53,7 +52,7 @@ SIMD_INLINE void add_row(const float *row, const int offset[2], const double wei
           (AS_DOUBLES(far) * weight[2] + AS_DOUBLES(far + 3) * weight[3]);
 }
 
-/* Adds up 16 samples; lane 3 is nobody's. */
+/* Adds up 16 samples; lane 3 is unused. */
 SIMD_INLINE void add_cell(const float *const rows[4], const int offset[2],
                           const double weight[4][4], simd_double4 *sum) {
   add_row(rows[0], offset, weight[0], sum);
@@ -87,7 +86,7 @@ SIMD_INLINE void taps_sum_cells_body(const struct taps_cells *cells, int first, 
     }
     const union {
       simd_double4 rows[4];
-      double each[4][4]; /* scalars again, to be broadcast */
+      double each[4][4]; /* as scalars, to be broadcast */
     } weight = {{weight0, weight1, weight2, weight3}};
     add_cell(cells->rows, cells->offset[c], weight.each, &sum);
   }

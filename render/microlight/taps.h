@@ -7,9 +7,10 @@
 #ifndef TAPS_H
 #define TAPS_H
 
-/* One node a micro light, single precision: the strip's samples and the node's weights. */
+/* A strip along u with one node, single precision: its samples and their weights. */
 struct taps_column {
-  int offset[2];      /* floats from the row's first: pixels of the near and the near + up sample */
+  int offset[2]; /* of the pixels of the near and the near + up sample, in floats from the row's
+                    first */
   float weight[2][8]; /* of the pair's floats there: R G B R G B 0 0 */
 };
 

@@ -5,9 +5,8 @@
 #include "base/picture.h"
 #include "base/result.h"
 
-/* The radiance that becomes white unless somebody chooses: 99 % of the pixels, by their
- * brightest channel, are at most 0.9 times as bright. 1 where the picture is black.
- * Fails without memory. */
+/* The radiance that becomes white by default: 99 % of the pixels, by their brightest channel, are
+ * at most 0.9 times as bright. 1 where the picture is black. Fails without memory. */
 enum result preview_exposure(const struct picture *picture, double *white, struct error *error);
 
 /* Writes the picture, radiance `white` as white, whole or not at all; what is darker than

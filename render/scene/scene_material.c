@@ -1,4 +1,4 @@
-/* scene_material.c - materials and their textures, see scene_load.h. */
+/* scene_material.c - materials and their textures */
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <math.h>

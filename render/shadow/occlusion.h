@@ -1,5 +1,5 @@
-/* occlusion.h - what stands in a ray's way. One implementation, by Embree
- * (occlusion_embree.c); another ray tracer would be another file.
+/* occlusion.h - rays against the scene: the nearest surface, and shadow rays. One implementation,
+ * by Embree (occlusion_embree.c); another ray tracer would be another file.
  *
  * Scene space, double at this interface; Embree computes in single precision.
  * Queries are thread-safe once it is created. */
@@ -25,13 +25,13 @@ enum result occlusion_create(const struct scene *scene, struct occlusion **occlu
                              struct error *error);
 void occlusion_free(struct occlusion *occlusion); /* NULL allowed */
 
-/* The nearest triangle, seen from either side. Does not start above a surface by itself. */
+/* The nearest triangle, seen from either side. The origin is not lifted off its surface. */
 bool occlusion_nearest(const struct occlusion *occlusion, const double origin[3],
                        const double direction[3], struct occlusion_hit *hit);
 
 /* Where shadow rays of a receiver start: above the surface along the unit normal (geometric,
- * on the light's side), by more than single precision can confuse: 1e-6 to 2e-6 of half the
- * scene's diagonal. Surfaces nearer to each other than that are taken as one. */
+ * on the light's side), by more than the error of single precision: 1e-6 to 2e-6 of half the
+ * scene's diagonal. Surfaces nearer to each other than that cast no shadows on each other. */
 void occlusion_lift(const struct occlusion *occlusion, const double position[3],
                     const double normal[3], double lifted[3]);
 

@@ -1,4 +1,4 @@
-/* shaft.c - see shaft.h. Triangles are the leaves of a tree of boxes. */
+/* shaft.c - triangles are the leaves of a tree of boxes. */
 #include "shadow/shaft.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* shaft.h - may anything stand between a group of receivers and an aperture? Where not, no
- * shadow ray is traced.
+/* shaft.h - may anything stand between a group of receivers and an aperture? If not, no shadow
+ * rays are traced.
  *
  * The answer is conservative: `false` is certain. Nothing blocks a segment that does not lie
  * within the convex hull of its ends (shaft culling: Haines and Wallace, "Shaft culling for

@@ -1,4 +1,3 @@
-/* viewer_camera.c - see viewer_camera.h. */
 #include "viewer/viewer_camera.h"
 
 #include <math.h>
@@ -6,7 +5,7 @@
 
 #include "base/vector.h"
 
-/* How far from straight above, in radians. */
+/* At least so far from straight above, in radians. */
 static const double steepest = 0.02;
 
 struct camera viewer_camera_outside(const struct scene *scene) {

@@ -10,10 +10,10 @@ struct camera viewer_camera_outside(const struct scene *scene);
 
 bool viewer_camera_same(const struct camera *a, const struct camera *b);
 
-/* The distance of what it looks at. */
+/* From the camera to the point that it looks at. */
 double viewer_camera_distance(const struct camera *camera);
 
-/* Turns around that, to its own right and upwards, as far as `up` allows. */
+/* Moves around that point, to the camera's right and upwards, up to straight above it. */
 void viewer_camera_orbit(struct camera *camera, double right, double up);
 
 /* Moves to its own right and upwards, in lengths. */

@@ -1,4 +1,3 @@
-/* viewer_command.c - see viewer_command.h. */
 #include "viewer/viewer_command.h"
 
 #include <stdarg.h>

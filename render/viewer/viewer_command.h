@@ -4,7 +4,7 @@
 
 #include "viewer/viewer_state.h"
 
-/* What does not change while one looks. */
+/* What does not change while the window is open. */
 struct viewer_arguments {
   const char *mesh;
   bool repair;

@@ -1,4 +1,4 @@
-/* viewer_loop.h - looking at a scene in a window until somebody quits. */
+/* viewer_loop.h - shows a scene in a window until the user quits. */
 #ifndef VIEWER_LOOP_H
 #define VIEWER_LOOP_H
 

@@ -1,4 +1,4 @@
-/* viewer_state.h - what keys and mouse decide in the viewer: the camera, where lights are, how
+/* viewer_state.h - what keys and mouse change in the viewer: the camera, where lights are, how
  * their light is summed. No window and no OpenGL: events go in, the state changes. */
 #ifndef VIEWER_STATE_H
 #define VIEWER_STATE_H
@@ -9,7 +9,7 @@
 #include "scene/camera.h"
 #include "viewer/viewer_picture.h"
 
-/* Others are the characters that they write. */
+/* Keys that write no character; others are their characters. */
 enum viewer_key {
   VIEWER_KEY_LEFT = 256,
   VIEWER_KEY_RIGHT,
@@ -45,7 +45,7 @@ void viewer_state_free(struct viewer_state *state); /* zeroed state allowed */
 /* Are two matrices the same? */
 bool viewer_same_place(const double a[4][3], const double b[4][3]);
 
-/* A key is pressed. Those that mean nothing change nothing. */
+/* A key is pressed; unknown ones change nothing. */
 void viewer_state_key(struct viewer_state *state, int key, bool shift);
 
 /* The mouse is dragged, by shares of the picture's width to the right and down; `move` instead

@@ -1,5 +1,5 @@
-/* viewer_status.h - what the viewer writes on its picture: how far it is, what it leaves out, and
- * what the keys do. */
+/* viewer_status.h - the text on the viewer's picture: progress, error, what is skipped, and what
+ * the keys do. */
 #ifndef VIEWER_STATUS_H
 #define VIEWER_STATUS_H
 

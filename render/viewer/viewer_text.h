@@ -1,4 +1,4 @@
-/* viewer_text.h - words on a picture, in letters of 5 x 7 dots. */
+/* viewer_text.h - text on a picture, in letters of 5 x 7 dots. */
 #ifndef VIEWER_TEXT_H
 #define VIEWER_TEXT_H
 
