@@ -10,8 +10,8 @@ repeats=${BENCH_REPEATS:-5}
 # times the kernel; the kernel.
 work=67
 
-# column FILE EXPRESSION: one number of each repeat; $2.. are paper, pi, reference, pi alone
-# (ns), bytes/ns, 1e9 multiply-adds a second fused and not.
+# column FILE EXPRESSION: one number of each repeat; $2.. are paper, pi, reference (ns), bytes/ns,
+# 1e9 multiply-adds a second fused and not.
 column() { awk "\$1 == \"repeat\" { printf \"%.4g \", $2 }" "$1"; }
 # over FILE EXPRESSION: its median and spread
 over() { local x && read -ra x < <(column "$1" "$2"; echo) && spread "${x[@]}"; }
@@ -29,18 +29,17 @@ measure() { # UV ST plane|scattered WHERE
   row 'paper over pi: time' "$(over "$file" '$2/$3')" '>= 5' "$(holds "$(median "$file" '$2/$3') >= 5")"
   row 'paper over pi: error' "$(calc %.0f "$paper/$pi")" '>= 10' "$(holds "$paper/$pi >= 10")"
   row 'paper over reference: time' "$(over "$file" '$2/$4')"
-  row 'pi, time: receivers one by one over 64 together' "$(over "$file" '$5/$3')"
   printf '  roofline, one core: reads the slab at %s GB/s, does %s G multiply-adds/s\n' \
-    "$(over "$file" '$6')" "$(over "$file" '$7')"
-  printf '    (%s G in 8 lanes, not fused, as the code must for the same bits everywhere)\n' "$(over "$file" '$8')"
+    "$(over "$file" '$5')" "$(over "$file" '$6')"
+  printf '    (%s G in 8 lanes, not fused, as the code must for the same bits everywhere)\n' "$(over "$file" '$7')"
   printf '    pi needs %s of them a micro light and %s bytes of the slab (%s for one receiver alone)\n' \
     "$work" "$tile" "$alone"
   bound=memory
-  holds "$(median "$file" "$tile/\$6") > $(median "$file" "$work/\$8")" | grep -q ok || bound=arithmetic
-  local limit="($tile/\$6 > $work/\$8 ? $tile/\$6 : $work/\$8)"
+  holds "$(median "$file" "$tile/\$5") > $(median "$file" "$work/\$7")" | grep -q ok || bound=arithmetic
+  local limit="($tile/\$5 > $work/\$7 ? $tile/\$5 : $work/\$7)"
   row "pi over its bound, $bound of $(median "$file" "$limit") ns" "$(over "$file" "\$3/$limit")" '<= 3' \
     "$(holds "$(median "$file" "\$3/$limit") <= 3")"
-  row 'pi over the bound by fused multiply-adds in the widest registers' "$(over "$file" "\$3/($work/\$7)")"
+  row 'pi over the bound by fused multiply-adds in the widest registers' "$(over "$file" "\$3/($work/\$6)")"
 }
 
 for slab in '64 64' '16 64'; do

@@ -4,9 +4,9 @@
  *       visible MEAN TOGETHER ALONE    micro lights that a receiver sees; bytes of the slab for
  *                                      each that a tile of 64 receivers, or one receiver, needs
  *       error PAPER PI REFERENCE       relative RMS against the reference to 1e-9
- *       repeat PAPER PI REFERENCE PI-ALONE READ FUSED PLAIN
- *                                      ns a micro light; pi, one receiver at a time; GB/s of
- *                                      reading the slab; 1e9 multiply-adds a second (roofline.h)
+ *       repeat PAPER PI REFERENCE READ FUSED PLAIN
+ *                                      ns a micro light; GB/s of reading the slab; 1e9
+ *                                      multiply-adds a second (roofline.h)
  *   sum visits                         micro lights visited against the resolution, and pi's time
  *
  * The slab: aperture 1 x 1, slopes up to 1.5, half rough and half smooth. Receivers: 64 x 64
@@ -171,7 +171,6 @@ static void print_visible(const struct light_page *page, const struct receiver r
 struct way {
   double tolerance;
   enum gather_method method;
-  int together; /* receivers */
 };
 
 /* Nanoseconds of CPU; the light goes to `gathered`. */
@@ -187,8 +186,8 @@ static double sum(const struct light *light, const struct way *way,
                                            .level = -1};
   hold(gather_create(&settings, &gather, &error), &error);
   double start = roofline_seconds();
-  for (int k = 0; k < COUNT; k += way->together)
-    hold(gather_light(gather, receivers + k, way->together, gathered + k, &error), &error);
+  for (int k = 0; k < COUNT; k += TOGETHER)
+    hold(gather_light(gather, receivers + k, TOGETHER, gathered + k, &error), &error);
   double spent = 1e9 * (roofline_seconds() - start);
   *visited = gather_counts(gather)->microlights;
   gather_free(gather);
@@ -206,16 +205,14 @@ static double difference(const struct gathered *a, const struct gathered *b) {
   return sqrt(square / norm);
 }
 
-static const struct way ways[] = {{1e-2, GATHER_PAPER, TOGETHER},
-                                  {1e-2, GATHER_PI, TOGETHER},
-                                  {1e-6, GATHER_REFERENCE, TOGETHER},
-                                  {1e-2, GATHER_PI, 1}};
-enum { WAYS = sizeof ways / sizeof ways[0], METHODS = WAYS - 1 };
+static const struct way ways[] = {
+    {1e-2, GATHER_PAPER}, {1e-2, GATHER_PI}, {1e-6, GATHER_REFERENCE}};
+enum { WAYS = sizeof ways / sizeof ways[0] };
 
 static void times(int uv, int st, const char *where, int repeats) {
   static struct receiver receivers[COUNT];
   static struct gathered truth[COUNT], gathered[COUNT];
-  static const struct way exact = {1e-9, GATHER_REFERENCE, TOGETHER};
+  static const struct way exact = {1e-9, GATHER_REFERENCE};
   struct light light;
   struct light_page page;
   uint64_t visited;
@@ -224,7 +221,7 @@ static void times(int uv, int st, const char *where, int repeats) {
   print_visible(&page, receivers);
   sum(&light, &exact, receivers, truth, &visited);
   printf("error");
-  for (int w = 0; w < METHODS; ++w) {
+  for (int w = 0; w < WAYS; ++w) {
     sum(&light, &ways[w], receivers, gathered, &visited);
     printf(" %.3g", difference(gathered, truth));
   }
