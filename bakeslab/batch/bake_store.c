@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -47,6 +46,14 @@ static bool is_current(int lock, const char *path) {
          held.st_dev == there.st_dev;
 }
 
+/* F_RDLCK, F_WRLCK or F_UNLCK: false where others hold what that excludes. A record lock is the
+ * process's own: one of flock() is held by the child of a fork too, until its exec, and a bake
+ * that is killed just then would seem to be at work still. */
+static bool set_lock(int lock, short type) {
+  struct flock all = {.l_type = type, .l_whence = SEEK_SET};
+  return fcntl(lock, F_SETLK, &all) == 0;
+}
+
 /* Opens and locks the file once; store->lock is -1 where it has to be tried again. */
 static enum result try_lock(const char *path, bool shared, struct bake_store *store,
                             struct error *error) {
@@ -56,9 +63,9 @@ static enum result try_lock(const char *path, bool shared, struct bake_store *st
   if (store->lock < 0) /* the folder may just have gone */
     return errno == ENOENT ? RESULT_OK
                            : result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
-  if (flock(store->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) {
+  if (set_lock(store->lock, shared ? F_RDLCK : F_WRLCK)) {
     if (is_current(store->lock, path)) return RESULT_OK;
-  } else if (errno == EWOULDBLOCK) {
+  } else if (errno == EAGAIN || errno == EACCES) {
     result =
         result_fail(error, RESULT_IO, "%s: another bake of this output is at work; wait for it",
                     store->directory);
@@ -101,18 +108,24 @@ static bool is_empty(const char *directory) {
   return empty;
 }
 
+/* Whether nobody else has the store, nor gets it before it is closed. Whoever shares it lets go
+ * first: of two who leave at the same time one is then alone. */
+static bool is_alone(int lock, const char *path) {
+  if (set_lock(lock, F_WRLCK)) return true;
+  set_lock(lock, F_UNLCK);
+  return set_lock(lock, F_WRLCK) && is_current(lock, path);
+}
+
 void bake_store_close(struct bake_store *store, bool finished) {
+  char *lock = store->lock >= 0 ? files_join(store->directory, lock_name) : NULL;
   /* A store that others share stays; alone with it, nothing of ours does. */
-  bool alone = store->lock >= 0 && flock(store->lock, LOCK_EX | LOCK_NB) == 0;
-  if (alone && (finished || is_empty(store->directory))) {
-    char *lock = files_join(store->directory, lock_name);
+  if (lock && is_alone(store->lock, lock) && (finished || is_empty(store->directory))) {
     sweep(store->directory, "");
-    /* Last: without it, the next one takes the store for its own. */
-    if (lock) unlink(lock);
+    unlink(lock);            /* last: without it, the next one takes the store for its own */
     rmdir(store->directory); /* stays where somebody put something else into it */
-    free(lock);
   }
   if (store->lock >= 0) close(store->lock);
+  free(lock);
   free(store->directory);
   *store = (struct bake_store){.lock = -1};
 }

@@ -18,7 +18,8 @@ struct bake_store {
 };
 
 /* Opens or makes the store beside the output. Shards share it; a bake that is to
- * assemble wants it alone and is refused while others are at work. */
+ * assemble wants it alone and is refused while other processes are at work. One that was
+ * killed is not, even where a child of it still runs. A process opens a store once. */
 enum result bake_store_open(const char *output, bool shared, struct bake_store *store,
                             struct error *error);
 /* Closes the store; `finished` removes it with all that is in it. */

@@ -1,10 +1,12 @@
 /* test_store.c - two bakes of the same output: the store has one holder, whoever comes and goes
- * at the same time. */
+ * at the same time, or is killed. */
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -17,9 +19,13 @@ enum { PROCESSES = 4, TURNS = 500 };
 
 /* In place of the C library's: waits first, so that other processes have time to act between the
  * opening of a lock and its taking. */
-int flock(int file, int operation) {
+int fcntl(int file, int command, ...) {
+  va_list rest;
+  va_start(rest, command);
+  void *argument = va_arg(rest, void *);
+  va_end(rest);
   usleep((useconds_t)(random() % 300));
-  return (int)syscall(SYS_flock, file, operation);
+  return (int)syscall(SYS_fcntl, file, command, argument);
 }
 
 /* Shared by the processes. */
@@ -69,6 +75,36 @@ TEST(test_one_holder) {
   assert_int_equal(bake_store_open(output, false, &store, NULL), RESULT_OK);
   bake_store_close(&store, true);
   assert_int_equal(rmdir(folder), 0); /* nothing is left */
+}
+
+/* A bake that is killed while a child of it has not become POV-Ray yet. */
+TEST(test_killed_holder) {
+  char folder[] = "/tmp/store.XXXXXX", output[64];
+  int ends[2];
+  pid_t child = 0;
+  assert_non_null(mkdtemp(folder));
+  snprintf(output, sizeof output, "%s/x.tif", folder);
+  assert_int_equal(pipe(ends), 0);
+  pid_t holder = fork();
+  if (holder == 0) {
+    struct bake_store store;
+    if (bake_store_open(output, false, &store, NULL) != RESULT_OK) _exit(1);
+    child = fork();
+    if (child > 0 && write(ends[1], &child, sizeof child) != sizeof child) _exit(1);
+    for (;;) pause();
+  }
+  close(ends[1]);
+  assert_int_equal(read(ends[0], &child, sizeof child), sizeof child);
+  struct bake_store store;
+  assert_int_equal(bake_store_open(output, false, &store, NULL), RESULT_IO);
+  bake_store_close(&store, false);
+  kill(holder, SIGKILL);
+  waitpid(holder, NULL, 0);
+  enum result result = bake_store_open(output, false, &store, NULL);
+  kill(child, SIGKILL);
+  bake_store_close(&store, true);
+  assert_int_equal(result, RESULT_OK);
+  assert_int_equal(rmdir(folder), 0);
 }
 
 int main(void) {
