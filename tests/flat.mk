@@ -86,7 +86,7 @@ stability: $(NUMERICS) $(HARD) $(BIN) ## sweep hard cases of the sums and of POV
 	$(if $(filter-out pov-%,$(firstword $(CASE))),,@$(TEST_ENV) $(HARD) $(if $(CASE),$(CASE),$(EFFORT) $(TEST_JOBS) build/stability/povray.html))
 
 lint: $(B)/flags ## check formatting, static analysis and house rules
-	@CC='$(CC)' FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint/lint.sh
+	@FLAGS=$(call quote,$(ALL_CFLAGS) $(RENDER_CFLAGS)) CXXFLAGS=$(call quote,$(ALL_CXXFLAGS) $(IMAGE_CFLAGS)) JOBS=$(TEST_JOBS) bash tests/lint/lint.sh
 
 $(TEST_SOURCES:%.c=$(B)/%.o) $(TEST_HELPERS:%.c=$(B)/%.o): EXTRA_CFLAGS = -Itests $(RENDER_CFLAGS)
 # The machine's rate of multiply-adds is that of fused ones.
