@@ -116,7 +116,7 @@ END
 }
 
 @test "in a browser: cards, pictures, no word on the console, no wider than a phone" {
-  command -v chromium >/dev/null || skip "no chromium"
+  needs chromium
   run in_browser
   echo "$output"
   [ "$(grep -c CONSOLE console.log)" -eq 0 ]
