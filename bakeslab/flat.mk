@@ -27,17 +27,17 @@ define man_page
 	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/cli/man.sh $(filter $(BIN),$^) $* $(VERSION) >$@
 endef
 
-$(BAKE_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(BAKE_BIN) | $(SETUP_FIRST)
+$(BAKE_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(BAKE_BIN)
 	$(man_page)
 
-$(B)/man/%.5: bakeslab/file/%.5.scd | $(SETUP_FIRST)
+$(B)/man/%.5: bakeslab/file/%.5.scd
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
 	$(Q)SOURCE_DATE_EPOCH=$(DATE) scdoc <$< >$@
 
 # Found by the program relative to itself, built or installed alike.
 READS := $(B)/lib/canned/reads.so
-$(READS): bakeslab/preload/reads.c | $(SETUP_FIRST)
+$(READS): bakeslab/preload/reads.c | $(B)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
 	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -fPIC -shared $< -ldl -o $@

@@ -5,7 +5,7 @@ POV_FILES := $(sort $(filter-out %/flat.mk,$(shell find include-pov -type f)))
 DEMO := build/demo
 DEMO_READS := include-pov/demo.pov include-pov/demo.sh
 
-$(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc $(BAKE_BIN) | $(SETUP_FIRST)
+$(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc $(BAKE_BIN)
 	@mkdir -p $(@D)
 	@echo 'Baking $< (a minute or two on two processors)'
 	@include-pov/demo.sh timed $(DEMO)/bake.seconds $(BAKE_BIN) bake $< -o $@

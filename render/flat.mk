@@ -10,7 +10,7 @@ $(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) render
 	@{ echo '#include "gl/gl_program.h"'; for f in $(filter %.glsl,$^); do \
 	  name=$${f##*/}; name=$${name%.glsl}; echo "const char gl_$${name%.*}_$${name#*.}[] ="; \
 	  sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $$f; echo ';'; done; } >$@
-$(B)/render/gl/gl_shaders.o: $(B)/render/gl/gl_shaders.c
+$(B)/render/gl/gl_shaders.o: $(B)/render/gl/gl_shaders.c $(B)/flags
 	$(call say,CC,$<)
 	$(Q)$(CC) $(ALL_CFLAGS) $(RENDER_CFLAGS) -c $< -o $@
 
@@ -26,7 +26,7 @@ $(RENDER_BIN): | $(IMAGE)
 RENDER_PAGES := $(B)/man/renderslab.1 $(patsubst render/cmd/cmd_%.c,$(B)/man/renderslab-%.1,$(wildcard render/cmd/cmd_*.c))
 MAN_PAGES += $(RENDER_PAGES)
 
-$(RENDER_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(RENDER_BIN) | $(SETUP_FIRST)
+$(RENDER_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(RENDER_BIN)
 	$(man_page)
 
 # Figures of the paper. The lamp at the paper's resolution is baked once: only another lamp
@@ -34,7 +34,7 @@ $(RENDER_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(RENDER_BIN) | $(SETUP_FIRST
 FIGURES := build/figures
 FIGURE3 := render/scenes/figure3.obj render/scenes/figure3.mtl
 
-$(FIGURES)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BAKE_BIN) $(SETUP_FIRST)
+$(FIGURES)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BAKE_BIN)
 	@mkdir -p $(@D)
 	@echo 'Baking $< at 64x64 x 64x64 (10 CPU minutes; goes on where it was interrupted)'
 	@$(BAKE_BIN) bake $< -o $@ --uv 64x64 --st 64x64 --uniform --rays 4
@@ -57,7 +57,7 @@ $(FIGURES)/figure3-half.exr: $(FIGURES)/half.tif $(FIGURE3) $(RENDER_BIN)
 	$(figure3)
 
 # Figure 6: an office under two sizes of the lamp, by POV-Ray and, as a mesh, by renderslab.
-$(FIGURES)/parabolic_%.tif: lamps/parabolic_%.pov lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BAKE_BIN) $(SETUP_FIRST)
+$(FIGURES)/parabolic_%.tif: lamps/parabolic_%.pov lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc | $(BAKE_BIN)
 	@mkdir -p $(@D)
 	@echo 'Baking $< (a minute)'
 	@$(BAKE_BIN) bake $< -o $@ --uv 16x16 --st 48x48 --rays 8
@@ -65,7 +65,7 @@ $(FIGURES)/parabolic_%.tif: lamps/parabolic_%.pov lamps/parabolic.pov include-po
 $(FIGURES)/parabolic_%.inc: $(FIGURES)/parabolic_%.tif
 	@$(BAKE_BIN) include $< -o $@
 
-$(FIGURES)/office.obj: include-pov/office.pov include-pov/office_shapes.inc render/figures/figure6.sh | $(SETUP_FIRST)
+$(FIGURES)/office.obj: include-pov/office.pov include-pov/office_shapes.inc render/figures/figure6.sh
 	@mkdir -p $(@D)
 	@render/figures/figure6.sh mesh $(@D)
 
@@ -85,7 +85,7 @@ $(FIGURES)/figure6.txt: $(foreach lamp,small large,$(FIGURES)/figure6-$(lamp)-po
 FIGURE5 := render/scenes/figure5.obj render/scenes/figure5.mtl
 FIGURE5_PICTURES := $(FIGURES)/figure5-gl.exr $(FIGURES)/figure5-reference.exr
 
-$(FIGURES)/slide.png: lamps/projector/slide.pov | $(SETUP_FIRST)
+$(FIGURES)/slide.png: lamps/projector/slide.pov
 	@mkdir -p $(@D)
 	@povray +I$< +O$@ +W768 +H512 +A0.1 -D >$(@:.png=.log) 2>&1 || { echo 'POV-Ray failed; see $(@:.png=.log)' >&2; exit 1; }
 

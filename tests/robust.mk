@@ -59,7 +59,7 @@ $(B)/tests/faults/fake_povray: $(B)/tests/faults/fake_povray.o $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
-$(B)/tests/faults/nomem.so: tests/faults/nomem.c | $(SETUP_FIRST)
+$(B)/tests/faults/nomem.so: tests/faults/nomem.c | $(B)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
 	$(Q)$(CC) -O1 -g -D_GNU_SOURCE $(WARN) -fPIC -shared $< -o $@
@@ -71,7 +71,7 @@ $(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
 
 # A driver's memory that its globals hold looks lost once the driver is unloaded: for
 # render/viewer none is.
-$(B)/tests/faults/keep.so: tests/faults/keep.c | $(SETUP_FIRST)
+$(B)/tests/faults/keep.so: tests/faults/keep.c | $(B)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
 	$(Q)$(CC) -O1 -g -D_GNU_SOURCE $(WARN) -fPIC -shared $< -o $@
@@ -83,7 +83,7 @@ endif
 # All of it, at length: every test under the address and undefined behaviour sanitizers, but for
 # those that build programs of their own (without sanitizer); what uses threads under the thread
 # sanitizer; the fuzzers; and more of every fault.
-SANITIZE_TESTS ?= $(filter-out house/install house/makefile,$(TEST_NAMES))
+SANITIZE_TESTS ?= $(filter-out house/install house/makefile house/setup,$(TEST_NAMES))
 # Threads are those of render/tiles.c: whoever gathers light, or makes levels and trees for that;
 # bakeslab has none. gcc 12's thread sanitizer dies where addresses are too random: setarch.
 THREAD_TESTS ?= render/test_tiles render/test_visible render/test_cut render/test_limits render/test_gl render/image render/tradeoff numerics/%

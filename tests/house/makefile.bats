@@ -1,11 +1,11 @@
 #!/usr/bin/env bats
-# The Makefile's own behaviour, against a stand-in for apt where it sets up.
+# The Makefile's own behaviour; setup.bats has its set-up.
 load house
 
 @test "make help lists the targets" {
   run house_make help
   [ "$status" -eq 0 ]
-  for target in all setup demo test bench lint sanitize install uninstall clean man help; do
+  for target in all setup demo test bare bench lint sanitize install uninstall clean man help; do
     grep -q "^make $target  *[a-z]" <<<"$output"
   done
 }
@@ -38,6 +38,11 @@ blind_compiler() {
   chmod +x "$BATS_TEST_TMPDIR/cc"
 }
 
+@test "without a compiler, make all says make setup" {
+  says 'The C compiler no-such-gcc, or the C library, is not here: run `make setup`.' CC=no-such-gcc
+  says 'The C++ compiler no-such-g++, or its library, is not here: run `make setup`.' CXX=no-such-g++
+}
+
 @test "without the libraries, make all says make setup" {
   PKG_CONFIG_LIBDIR=/nowhere PKG_CONFIG_PATH='' says \
     'Not here (pkg-config names): libtiff-4 OpenEXR jansson libxxhash assimp libpng epoxy egl glfw3 OpenImageIO: run `make setup`.'
@@ -57,8 +62,7 @@ blind_compiler() {
 @test "without Embree or CGAL, make all says make setup" {
   blind_compiler
   says 'The library Embree 3 (embree3/rtcore.h) is not here: run `make setup`.' CC="$BATS_TEST_TMPDIR/cc"
-  says "The library CGAL (CGAL/version.h), or the compiler $BATS_TEST_TMPDIR/cc, is not here: run \`make setup\`." \
-    CXX="$BATS_TEST_TMPDIR/cc"
+  says 'The library CGAL (CGAL/version.h) is not here: run `make setup`.' CXX="$BATS_TEST_TMPDIR/cc"
 }
 
 @test "other flags rebuild, the same flags do not" {
@@ -69,93 +73,6 @@ blind_compiler() {
   [[ $output != *CC* ]]
   run house_make B="$b" CFLAGS=-O1 "$one"
   [[ $output == *"CC    bakeslab/base/result.c"* ]]
-}
-
-# A folder that comes first in PATH: a dpkg-query that knows every package but
-# those in MISSING, and apt-get and sudo that write down how they were called.
-fake_debian() {
-  fake=$BATS_TEST_TMPDIR/fake
-  mkdir -p "$fake"
-  cat >"$fake/dpkg-query" <<'END'
-#!/bin/sh
-for p in "$@"; do
-  case " $MISSING " in *" $p "*) continue ;; esac
-  case $p in -*) ;; *) echo "installed $p" ;; esac
-done
-END
-  printf '#!/bin/sh\necho "apt-get $*" >>"%s/called"\n' "$fake" >"$fake/apt-get"
-  printf '#!/bin/sh\n"$@"\n' >"$fake/sudo"
-  chmod +x "$fake"/*
-  PATH=$fake:$PATH
-}
-
-@test "setup installs what is missing, named first, and nothing twice" {
-  fake_debian
-  MISSING='bats povray' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
-  [ "$status" -eq 0 ]
-  [ "${lines[0]}" = "make setup: apt installs bats povray" ]
-  [ "$(cat "$fake/called")" = "apt-get update -qq
-apt-get install -y -q --no-install-recommends bats povray" ]
-
-  rm "$fake/called"
-  MISSING='' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
-  [ "$status" -eq 0 ]
-  [ -z "$output" ]
-  [ ! -e "$fake/called" ]
-}
-
-@test "SETUP=no asks nobody" {
-  fake_debian
-  MISSING='bats povray' run house_make SETUP=no setup
-  [ "$status" -eq 0 ]
-  [ ! -e "$fake/called" ]
-}
-
-@test "an apt that fails stops make and names the packages" {
-  fake_debian
-  printf '#!/bin/sh\nexit 100\n' >"$fake/apt-get"
-  MISSING='libtiff-dev' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
-  [ "$status" -ne 0 ]
-  [[ $output == *"apt could not install libtiff-dev"* ]]
-}
-
-# A PATH with what the Makefile needs and nothing else.
-bare_path() {
-  bare=$BATS_TEST_TMPDIR/bare
-  mkdir -p "$bare"
-  for tool in sh bash env make sed grep mkdir awk find nproc tail cat rm id uname; do
-    ln -s "$(command -v "$tool")" "$bare/$tool"
-  done
-  PATH=$bare
-}
-
-@test "where there is no apt, setup names what is needed in one line" {
-  bare_path
-  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
-  [ "$status" -ne 0 ]
-  [[ ${lines[0]} == *"no apt here: install a C and a C++ compiler"*libtiff*OpenEXR*jansson*xxhash*CGAL*OpenImageIO*Embree*assimp*libpng*POV-Ray* ]]
-}
-
-@test "neither root nor sudo: setup says what to ask for" {
-  fake_debian
-  rm "$fake/sudo"
-  printf '#!/bin/sh\necho 1000\n' >"$fake/id"
-  chmod +x "$fake/id"
-  bare_path
-  PATH=$fake:$bare
-  MISSING='povray' run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" setup
-  [ "$status" -ne 0 ]
-  [[ $output == *"neither root nor sudo: as root, apt-get install povray"* ]]
-  [ ! -e "$fake/called" ]
-}
-
-@test "each goal asks for its own packages only" {
-  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" -n demo
-  [[ $output == *povray* && $output != *libcmocka-dev* ]]
-  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" -n test
-  [[ $output == *povray* && $output == *libcmocka-dev* && $output != *clang-tidy* ]]
-  run house_make SETUP=yes B="$BATS_TEST_TMPDIR/b" -n all
-  [[ $output != *apt-get* ]]
 }
 
 @test "a failing, a crashing and a silent test are counted and shown" {
