@@ -37,6 +37,13 @@ test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
 	@sh tests/summary.sh $(TEST_LOGS)
 
+# BARE: goals, and options of make for each of them: BARE="-j1 demo".
+BARE ?= demo test
+
+.PHONY: bare
+bare: ## make demo and test (BARE: other goals) on a bare Debian 12, as a new user does; for root
+	@bash tests/bare.sh build/bare.log $(BARE)
+
 # Tools of the benchmarks and of `make tradeoff`; the demo's pictures are among what is measured.
 BENCH_FLOOR := $(B)/tests/bench/floor
 BENCH_SUM := $(B)/tests/bench/sum
