@@ -10,10 +10,10 @@
  * grow, to more than twice its size. False, and nothing is changed, where there is no memory. */
 static inline bool array_reserve(void *array, int *room, int count, size_t size) {
   if (count <= *room) return true;
-  void *grown;
+  void *old;
   int more = count > 2 * *room + 64 ? count : 2 * *room + 64;
-  memcpy(&grown, array, sizeof grown);
-  grown = reallocarray(grown, (size_t)more, size);
+  memcpy(&old, array, sizeof old);
+  void *grown = reallocarray(old, (size_t)more, size);
   if (!grown) return false;
   memcpy(array, &grown, sizeof grown);
   *room = more;
