@@ -38,7 +38,8 @@ static enum result find_white(const struct projector *projector, const struct sl
   double flux[3];
   even.rgb = ones;
   for (int axis = 0; axis < SLAB_AXES; ++axis) even.samples[axis] = 1;
-  slab_flux_metric(&even, flux);
+  enum result result = slab_flux_metric(&even, flux, error);
+  if (result != RESULT_OK) return result;
   *white = projector->flux / flux[0];
   if (flux[0] > 0 && isfinite(*white)) return RESULT_OK;
   return result_fail(error, RESULT_BAD, "the flux %g is too much for an opening of this size",

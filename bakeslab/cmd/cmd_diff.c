@@ -77,8 +77,9 @@ static enum result compare_samples(int page, const struct slab *a, const struct 
   double rmse = sqrt(squares / (double)count), scale = peak > 0 ? peak : 1;
   int at[SLAB_AXES];
   slab_locate(a, worst, at);
-  if (slab_flux_metric(a, flux_a) != RESULT_OK || slab_flux_metric(b, flux_b) != RESULT_OK)
-    return result_no_memory(error);
+  enum result result = slab_flux_metric(a, flux_a, error);
+  if (result == RESULT_OK) result = slab_flux_metric(b, flux_b, error);
+  if (result != RESULT_OK) return result;
   printf("page %d: rmse %.6g (%.3g of the peak %.6g), largest %.6g (%.3g of the peak) at sample "
          "(%d, %d, %d, %d)\n",
          page + 1, rmse, rmse / scale, peak, largest, largest / scale, at[SLAB_U], at[SLAB_V],

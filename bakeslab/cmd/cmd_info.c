@@ -43,7 +43,6 @@ static enum result find_figures(struct page *page, struct error *error) {
   const struct slab *slab = &page->slab;
   const float *rgb = slab->rgb;
   size_t count = 3 * slab_sample_count(slab), highest = 0, lowest = 0;
-  if (slab_flux_metric(slab, page->flux) != RESULT_OK) return result_no_memory(error);
   for (size_t n = 0; n < count; ++n) {
     if (rgb[n] > rgb[highest]) highest = n;
     if (rgb[n] < rgb[lowest]) lowest = n;
@@ -51,7 +50,7 @@ static enum result find_figures(struct page *page, struct error *error) {
   slab_locate(slab, highest / 3, page->peak_sample);
   for (size_t c = 0; c < 3; ++c) page->peak[c] = (double)rgb[highest / 3 * 3 + c];
   page->lowest = (double)rgb[lowest];
-  return RESULT_OK;
+  return slab_flux_metric(slab, page->flux, error);
 }
 
 static enum result read_page(struct slab_file *file, int number, struct page *page,

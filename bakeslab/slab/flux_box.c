@@ -206,8 +206,7 @@ enum result flux_box_measure(const struct slab *slab, struct flux_box *flux, str
   struct sums sums = {0};
   *flux = (struct flux_box){0};
   enum result result = make_source(slab, &source, error);
-  if (result == RESULT_OK && slab_flux(slab, flux->aperture) != RESULT_OK)
-    result = result_no_memory(error);
+  if (result == RESULT_OK) result = slab_flux(slab, flux->aperture, error);
   if (result != RESULT_OK) return result;
   struct face face = make_lid(&source);
   add_face(&source, &face, &sums);

@@ -87,12 +87,12 @@ static inline double slab_luminance(const float rgb[3]) {
 
 /* Radiant flux leaving through the page: the integral of the interpolated
  * radiance times cosine over aperture and window, with lengths in lamp units
- * (slab_flux.c). Without memory for it: RESULT_MEMORY, and NAN. */
-enum result slab_flux(const struct slab *slab, double rgb[3]);
+ * (slab_flux.c). NAN where memory for it runs out. */
+enum result slab_flux(const struct slab *slab, double rgb[3], struct error *error);
 
 /* The same with lengths in metres, whatever the unit of radiance: what is printed for
  * people, in slab_flux_unit: "W", "lm", or "relative m2 sr". */
-enum result slab_flux_metric(const struct slab *slab, double rgb[3]);
+enum result slab_flux_metric(const struct slab *slab, double rgb[3], struct error *error);
 const char *slab_flux_unit(const struct slab *slab);
 
 #endif

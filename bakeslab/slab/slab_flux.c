@@ -185,7 +185,7 @@ static void add_row(const struct slab *slab, int j, int l, const double *weights
     }
 }
 
-enum result slab_flux(const struct slab *slab, double rgb[3]) {
+enum result slab_flux(const struct slab *slab, double rgb[3], struct error *error) {
   /* With the st plane at infinity all views have the same weights. */
   bool one_view = slab_kappa(slab) == 0;
   size_t ns = (size_t)slab->samples[SLAB_S], nt = (size_t)slab->samples[SLAB_T];
@@ -206,11 +206,11 @@ enum result slab_flux(const struct slab *slab, double rgb[3]) {
   free(weights);
   free_rules(columns, columns_count);
   free_rules(rows, rows_count);
-  return good ? RESULT_OK : RESULT_MEMORY;
+  return good ? RESULT_OK : result_no_memory(error);
 }
 
-enum result slab_flux_metric(const struct slab *slab, double rgb[3]) {
-  enum result result = slab_flux(slab, rgb);
+enum result slab_flux_metric(const struct slab *slab, double rgb[3], struct error *error) {
+  enum result result = slab_flux(slab, rgb, error);
   for (int c = 0; c < 3; ++c) rgb[c] *= slab->metres_per_unit * slab->metres_per_unit;
   return result;
 }

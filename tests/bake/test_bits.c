@@ -127,8 +127,8 @@ TEST(test_radiosity) {
   assert_same("gather1.exr", "gather2.exr", 1);
   struct slab with = bakes_load("gather1.exr", 0), without = bakes_load("bare.exr", 0);
   double more[3], less[3];
-  slab_flux(&with, more);
-  slab_flux(&without, less);
+  slab_flux(&with, more, NULL);
+  slab_flux(&without, less, NULL);
   print_message("# interreflection multiplies the flux by %.3f\n", more[1] / less[1]);
   assert_true(more[1] > 1.1 * less[1]);
   slab_free(&with);

@@ -153,7 +153,7 @@ TEST(test_linear) {
 
 static double red_flux(const struct slab *slab) {
   double rgb[3];
-  slab_flux(slab, rgb);
+  slab_flux(slab, rgb, NULL);
   return rgb[0];
 }
 

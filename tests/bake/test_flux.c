@@ -159,7 +159,7 @@ TEST(test_flux) {
   double half = traced_flux(1 << 20), traced = traced_flux(1 << 21), rgb[3];
   assert_true(fabs(half / traced - 1) < 0.001);
   struct slab slab = bakes_load("lamp.exr", 0);
-  slab_flux(&slab, rgb);
+  slab_flux(&slab, rgb, NULL);
   double unit = slab.metres_per_unit, baked = rgb[1] * unit * unit;
   print_message("# baked %.5f W, traced %.5f W, %+.2f %%; stated noise %.2f %%\n", baked, traced,
                 100 * (baked / traced - 1), 100 * bakes_provenance(&slab, "noise", "flux"));
@@ -171,8 +171,8 @@ TEST(test_flux) {
 TEST(test_gain) {
   struct slab plain = bakes_load("plain.exr", 0), dim = bakes_load("dim.exr", 0);
   double expected[3], found[3];
-  slab_flux(&plain, expected);
-  slab_flux(&dim, found);
+  slab_flux(&plain, expected, NULL);
+  slab_flux(&dim, found, NULL);
   assert_true(bakes_provenance(&dim, "gain", NULL) == 0x1p-7);
   assert_true(fabs(found[1] / expected[1] - 1) < 0.001);
   slab_free(&plain);

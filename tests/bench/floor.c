@@ -284,7 +284,7 @@ static void compare(const char *path, const char *name) {
     die("the slab has other samples than the truth");
   struct lit_samples light = {truth.uv, truth.st, green(slabs)};
   double flux[3];
-  slab_flux(slabs, flux);
+  slab_flux(slabs, flux, NULL);
   report(&truth, &light, flux[1]);
 }
 

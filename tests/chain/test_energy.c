@@ -54,7 +54,7 @@ static void flux_of_slab(const char *name, double flux[3]) {
   if (slab_file_load_all(chain_path(name), &slabs, &count, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   assert_int_equal(count, 1);
-  slab_flux(slabs, flux);
+  slab_flux(slabs, flux, NULL);
   slab_file_free_all(slabs, count);
 }
 

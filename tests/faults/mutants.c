@@ -114,7 +114,7 @@ static void use_page(struct slab_file *file, int page) {
                 slab.st_window[2] / 2 + slab.st_window[3] / 2, found);
     for (int c = 0; c < 3; ++c)
       require(found[c] >= least * 1.0001 && found[c] <= most * 1.0001, "a mean of samples");
-    slab_flux(&slab, found);
+    slab_flux(&slab, found, NULL);
     slab_free(&slab);
   } else {
     require(*error.text, "a refusal has a reason");

@@ -147,7 +147,7 @@ TEST(energy_is_independent_of_resolution) {
     if (at[SLAB_S] % 11 == 0 || at[SLAB_T] % 11 == 0)
       memset(slab_at(&slab, at[0], at[1], at[2], at[3]), 0, 3 * sizeof(float));
   }
-  slab_flux(&slab, flux);
+  slab_flux(&slab, flux, NULL);
   for (int n = 12; n >= 3; n /= 2) {
     int coarse[SLAB_AXES] = {n, n, 12, 12};
     double sum = 0, z = 2, half = 1.6, area = 4 * half * half / (SIDE * SIDE);

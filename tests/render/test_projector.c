@@ -230,7 +230,7 @@ TEST(test_flux) {
                 1, 1e-6);
   slab_free(&slab);
   slab = load(project("dot.exr", white, 1, 1, "--aperture 0.3x0.2 --focus 2 --width 1.5"));
-  slab_flux(&slab, flux);
+  slab_flux(&slab, flux, NULL);
   assert_near(flux[0] / exchange(width, width, focus), 1, 1e-6);
   slab_free(&slab);
 }

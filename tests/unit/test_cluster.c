@@ -216,7 +216,7 @@ TEST(test_flux) {
   for (int lights = 1; lights <= 9; lights += 4) {
     struct cluster cluster = fit(&slab, lights);
     double flux[3] = {0, 0, 0}, wanted[3], width = plane_width(&slab);
-    slab_flux(&slab, wanted);
+    slab_flux(&slab, wanted, NULL);
     for (int k = 0; k < cluster.pages[0].count; ++k) {
       const struct cluster_light *light = &cluster.pages[0].lights[k];
       double tilt = atan(hypot(light->axis[0], light->axis[1]));
@@ -301,7 +301,7 @@ TEST(test_one_sample) {
   fill(&slab, one_sample_of_all);
   struct cluster cluster = fit(&slab, 8);
   double wanted[3], flux = 0, error = cluster.pages[0].error[2];
-  slab_flux(&slab, wanted);
+  slab_flux(&slab, wanted, NULL);
   assert_true(wanted[0] > 0);
   for (int k = 0; k < cluster.pages[0].count; ++k) {
     const struct cluster_light *light = &cluster.pages[0].lights[k];
@@ -346,7 +346,7 @@ TEST(test_point_flux) {
   fill(&slab, soft_lamp);
   assert_ok(point_make(&slab, 1, 20, &point, &error), &error);
   double wanted[3], flux[3] = {0, 0, 0};
-  slab_flux(&slab, wanted);
+  slab_flux(&slab, wanted, NULL);
   int width = point.picture.width, height = point.picture.height;
   for (int k = 0; k < 3 * width * height; ++k) {
     double latitude = (0.5 - (k / 3 / width + 0.5) / height) * pi;

@@ -21,7 +21,7 @@ TEST(test_constant_infinite) {
       memcpy(slab.st_window, windows[n], sizeof slab.st_window);
       for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] = 1 + (float)(k % 3);
       double flux[3], expected = 0.28 * lambert_window(windows[n]);
-      slab_flux(&slab, flux);
+      slab_flux(&slab, flux, NULL);
       for (int c = 0; c < 3; ++c) assert_near(flux[c] / (1 + c) / expected, 1, 5e-7);
       slab_free(&slab);
     }
@@ -35,10 +35,10 @@ TEST(test_metric) {
   double flux[3], metric[3];
   fill_colours(&slab, 3);
   slab.metres_per_unit = 0.01;
-  slab_flux(&slab, flux);
+  slab_flux(&slab, flux, NULL);
   for (int k = 0; k < 3; ++k) {
     strcpy(slab.radiance_unit, units[k][0]);
-    slab_flux_metric(&slab, metric);
+    slab_flux_metric(&slab, metric, NULL);
     assert_string_equal(slab_flux_unit(&slab), units[k][1]);
     for (int c = 0; c < 3; ++c) assert_near(metric[c] / flux[c], 1e-4, 1e-18);
   }
@@ -56,7 +56,7 @@ TEST(test_one_colour) {
     for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k)
       slab.rgb[k] = (float)(colour[k % 3] * (double)(k / 3 % 7));
     struct slab *back = write_and_load(scratch("one.tif"), &slab, 1, SLAB_PRECISION_LOGLUV);
-    slab_flux(&slab, before), slab_flux(back, after);
+    slab_flux(&slab, before, NULL), slab_flux(back, after, NULL);
     for (int c = 0; c < 3; ++c) assert_near(after[c] / before[c], 1, 1.4e-3);
     slab_file_free_all(back, 1);
     slab_free(&slab);
@@ -69,7 +69,7 @@ TEST(test_hemisphere) {
   double flux[3];
   for (int k = 0; k < 4; ++k) slab.st_window[k] = k % 2 ? 1e7 : -1e7;
   for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] = 1;
-  slab_flux(&slab, flux);
+  slab_flux(&slab, flux, NULL);
   assert_near(flux[0], 3.14159265358979 * 0.28, 1e-6);
   slab_free(&slab);
 }
@@ -83,7 +83,7 @@ TEST(test_constant_finite) {
       double window[4], flux[3];
       for (int k = 0; k < 4; ++k) window[k] = slab.st_window[k] * distances[d];
       for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] = 1;
-      slab_flux(&slab, flux);
+      slab_flux(&slab, flux, NULL);
       assert_near(flux[0] / lambert_exchange(aperture, window, distances[d]), 1, 1e-6);
       slab_free(&slab);
     }
@@ -115,7 +115,7 @@ TEST(test_against_lookup) {
       struct slab slab = awkward_slab(small[g], distances[d]);
       double flux[3];
       fill_colours(&slab, (uint64_t)(g + 3));
-      slab_flux(&slab, flux);
+      slab_flux(&slab, flux, NULL);
       double coarse = brute_flux(&slab, 12), fine = brute_flux(&slab, 24);
       assert_near(flux[1] / ((4 * fine - coarse) / 3), 1, 2e-5);
       slab_free(&slab);
@@ -130,7 +130,7 @@ TEST(test_superposition) {
   fill_colours(&b, 2);
   for (size_t k = 0; k < 3 * slab_sample_count(&a); ++k) c.rgb[k] = a.rgb[k] - 2 * b.rgb[k];
   double x[3], y[3], z[3];
-  slab_flux(&a, x), slab_flux(&b, y), slab_flux(&c, z);
+  slab_flux(&a, x, NULL), slab_flux(&b, y, NULL), slab_flux(&c, z, NULL);
   for (int k = 0; k < 3; ++k) assert_near(z[k], x[k] - 2 * y[k], 1e-8);
   slab_free(&a), slab_free(&b), slab_free(&c);
 }

@@ -90,8 +90,7 @@ static enum result finish_page(const struct work *work, int number, double dista
   page->frame = *work->slab;
   page->frame.rgb = NULL;
   page->frame.json = NULL;
-  if (slab_flux(work->slab, page->flux)) return result_fail(error, RESULT_MEMORY, "out of memory");
-  return RESULT_OK;
+  return slab_flux(work->slab, page->flux, error);
 }
 
 /* Grows a page up to `lights`, or, where that is 0, until it meets the tolerance or twice
@@ -151,7 +150,8 @@ static enum result share_lights(const struct slab *slabs, const int *lit, int co
   double fluxes[CLUSTER_MOST_PAGES], rgb[3];
   for (int p = 0; p < count; ++p) {
     shares[p] = 1;
-    if (slab_flux(&slabs[lit[p]], rgb)) return result_fail(error, RESULT_MEMORY, "out of memory");
+    enum result result = slab_flux(&slabs[lit[p]], rgb, error);
+    if (result != RESULT_OK) return result;
     fluxes[p] = rgb[0] + rgb[1] + rgb[2];
   }
   for (int left = lights - count; left > 0; --left) {

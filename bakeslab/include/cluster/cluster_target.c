@@ -70,7 +70,8 @@ enum result cluster_target_make(const struct slab *slab, double distance, double
     target->narrowest = fmax(target->narrowest, plane_fan_step(&plane));
   }
   double *flux = target->rgb[target->count];
-  if (slab_flux(slab, flux)) return result_fail(error, RESULT_MEMORY, "out of memory");
+  result = slab_flux(slab, flux, error);
+  if (result != RESULT_OK) return result;
   for (int c = 0; c < 3; ++c) {
     flux[c] /= width * width;
     most = fmax(most, flux[c]);

@@ -233,8 +233,8 @@ static enum result gather(const struct slab *slabs, int count, struct far_lamp *
       point->frame.json = NULL;
     }
     result = make_far_page(&slabs[k], &lamp->pages[lamp->count++], error);
+    if (result == RESULT_OK) result = slab_flux(&slabs[k], flux, error);
     if (result != RESULT_OK) return result;
-    if (slab_flux(&slabs[k], flux)) return result_fail(error, RESULT_MEMORY, "out of memory");
     double weight = flux[0] + flux[1] + flux[2];
     for (int c = 0; c < 3; ++c) {
       point->center[c] += weight * slabs[k].center[c];

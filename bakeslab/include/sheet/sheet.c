@@ -109,7 +109,8 @@ static enum result make_page(const struct slab *slab, int number, int most, stru
     lights[0] = (lights[0] + 1) / 2;
     lights[1] = (lights[1] + 1) / 2;
   }
-  if (slab_flux_metric(slab, page->flux)) return result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result = slab_flux_metric(slab, page->flux, error);
+  if (result != RESULT_OK) return result;
   page->faintest = faintest_of(slab) / page->levels[0].peak;
   return sheet_measure(slab, page->levels, page->level_count, error);
 }
