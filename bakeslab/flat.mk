@@ -5,6 +5,17 @@ BAKE_SOURCES := $(filter-out $(SLAB_SOURCES) bakeslab/preload/%,$(wildcard bakes
 SLAB_OBJECTS := $(SLAB_SOURCES:%.c=$(B)/%.o)
 BAKE_OBJECTS := $(BAKE_SOURCES:%.c=$(B)/%.o) $(patsubst %.cc,$(B)/%.o,$(wildcard bakeslab/*/*/*.cc))
 
+# The texts of some files as C arrays: X_inc of X.inc.in, gl_X_frag of X.frag.glsl.
+define embed
+	@mkdir -p $(@D)
+	$(call say,EMBED,$@)
+	$(Q)sh bakeslab/base/embed.sh '$(1)' $(filter-out %.sh,$^) >$@
+endef
+
+BAKE_OBJECTS += $(B)/bakeslab/include/templates.o
+$(B)/bakeslab/include/templates.c: $(sort $(wildcard bakeslab/include/*/*.inc.in)) bakeslab/base/embed.sh
+	$(call embed)
+
 $(B)/libslab.a: $(SLAB_OBJECTS)
 $(B)/libbake.a: $(BAKE_OBJECTS)
 

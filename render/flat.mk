@@ -3,16 +3,9 @@ RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c)) $(patsubst %
 
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
 
-# The shaders' texts, as C: gl_NAME_KIND of gl/shaders/NAME.KIND.glsl.
 RENDER_OBJECTS += $(B)/render/gl/gl_shaders.o
-$(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) render/flat.mk
-	@mkdir -p $(@D)
-	@{ echo '#include "gl/gl_program.h"'; for f in $(filter %.glsl,$^); do \
-	  name=$${f##*/}; name=$${name%.glsl}; echo "const char gl_$${name%.*}_$${name#*.}[] ="; \
-	  sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $$f; echo ';'; done; } >$@
-$(B)/render/gl/gl_shaders.o: $(B)/render/gl/gl_shaders.c $(B)/flags
-	$(call say,CC,$<)
-	$(Q)$(CC) $(ALL_CFLAGS) $(RENDER_CFLAGS) -c $< -o $@
+$(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) bakeslab/base/embed.sh
+	$(call embed,gl_)
 
 $(B)/librender.a: $(RENDER_OBJECTS)
 

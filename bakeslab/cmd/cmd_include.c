@@ -10,7 +10,6 @@
 #include "file/slab_exr.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
-#include "include/cluster/cluster_text.h"
 #include "include/include_choose.h"
 #include "lamp/housing.h"
 

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "include/sheet/sheet_error.h"
-#include "include/text/include_light.h"
-#include "slab/plane.h"
 
 /* Microseconds that POV-Ray 3.7 takes for each shaded point: for a light of the sheet,
  * a point of an area light, a spotlight, the far field's light. Their ratios count. */
@@ -43,34 +40,14 @@ static int level_for(const struct sheet_page *page, int lights) {
   return k;
 }
 
-/* All levels' errors at the distance go where the first of the standing distances is
- * kept: the sheet here is only for choosing. */
-static enum result measure_sheet(const struct slab *slabs, int count, struct sheet *sheet,
-                                 double distance, struct error *error) {
-  for (int k = 0, p = 0; k < count; ++k) {
-    if (include_peak(&slabs[k]) <= 0) continue;
-    struct sheet_page *page = &sheet->pages[p++];
-    double *errors = calloc((size_t)page->level_count + 1, sizeof *errors);
-    if (!errors) return result_fail(error, RESULT_MEMORY, "out of memory");
-    sheet_measure_at(&slabs[k], page->levels, page->level_count, distance, errors);
-    for (int m = 0; m < page->level_count; ++m) page->levels[m].error[0] = errors[m];
-    free(errors);
-  }
-  return RESULT_OK;
-}
-
 static void offer_sheets(const struct sheet *sheet, struct offers *offers) {
-  int most = 1;
-  for (int p = 0; p < sheet->page_count; ++p)
-    for (int axis = SLAB_U; axis <= SLAB_V; ++axis)
-      most = (int)fmax(most, sheet->pages[p].levels[0].views.samples[axis]);
-  for (int lights = most;; lights = (lights + 1) / 2) {
+  for (int lights = sheet_most_lights(sheet);; lights = (lights + 1) / 2) {
     struct offer offer = {.mode = INCLUDE_SHEET, .lights = lights};
     for (int p = 0; p < sheet->page_count; ++p) {
       const struct sheet_level *level =
           &sheet->pages[p].levels[level_for(&sheet->pages[p], lights)];
       offer.cost += sheet_cost * level->lit;
-      offer.error = fmax(offer.error, level->error[0]);
+      offer.error = fmax(offer.error, level->error_at);
     }
     add_offer(offers, offer);
     if (lights == 1) return;
@@ -80,13 +57,14 @@ static void offer_sheets(const struct sheet *sheet, struct offers *offers) {
 static void offer_cluster(const struct cluster *cluster, struct offers *offers) {
   struct offer offer = {.mode = INCLUDE_CLUSTER,
                         .lights = cluster_light_count(cluster),
-                        .points = cluster_point_count(cluster),
                         .error = cluster_worst_error(cluster)};
-  for (int p = 0; p < cluster->page_count; ++p)
+  for (int p = 0; p < cluster->page_count; ++p) {
+    offer.points += cluster_page_points(&cluster->pages[p]);
     for (int k = 0; k < cluster->pages[p].count; ++k) {
       const int *size = cluster->pages[p].lights[k].size;
       offer.cost += size[0] * size[1] > 1 ? area_cost * size[0] * size[1] : spot_cost;
     }
+  }
   add_offer(offers, offer);
 }
 
@@ -169,8 +147,7 @@ enum result include_choose(const struct slab *slabs, int count, int modes, doubl
                                         .error = choice->point.error_at});
   }
   if (result == RESULT_OK && modes & INCLUDE_SHEET) {
-    result = sheet_make(slabs, count, 0, &choice->sheet, error);
-    if (result == RESULT_OK) result = measure_sheet(slabs, count, &choice->sheet, distance, error);
+    result = sheet_make(slabs, count, 0, distance, &choice->sheet, error);
     if (result == RESULT_OK) offer_sheets(&choice->sheet, &offers);
   }
   if (result == RESULT_OK && modes & INCLUDE_CLUSTER) {
@@ -185,7 +162,7 @@ enum result include_choose(const struct slab *slabs, int count, int modes, doubl
   explain(&offers, best, tolerance, distance, choice->why, sizeof choice->why);
   if (chosen->mode != INCLUDE_SHEET) return RESULT_OK;
   sheet_free(&choice->sheet); /* once more, with only what is needed and its errors */
-  return sheet_make(slabs, count, chosen->lights, &choice->sheet, error);
+  return sheet_make(slabs, count, chosen->lights, 0, &choice->sheet, error);
 }
 
 enum result include_make(const struct slab *slabs, int count, enum include_mode mode, int lights,
@@ -198,7 +175,7 @@ enum result include_make(const struct slab *slabs, int count, enum include_mode 
   case INCLUDE_POINT:
     return point_make(slabs, count, distance, &choice->point, error);
   default:
-    return sheet_make(slabs, count, lights, &choice->sheet, error);
+    return sheet_make(slabs, count, lights, 0, &choice->sheet, error);
   }
 }
 

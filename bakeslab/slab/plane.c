@@ -102,3 +102,21 @@ double plane_fan_step(const struct plane *plane) {
   }
   return widest;
 }
+
+void plane_errors(const struct slab *slab, double distance, double margin,
+                  plane_approximation *approximation, const void *of, int count, double *errors) {
+  struct plane plane = plane_make(slab, distance, margin, 0);
+  double all = 0, exact[3], sum[3], at[3] = {0, 0, distance};
+  for (int k = 0; k < count; ++k) errors[k] = 0;
+  for (int row = 0; row < plane.receivers; ++row)
+    for (int column = 0; column < plane.receivers; ++column) {
+      plane_receiver(&plane, column, row, at);
+      plane_irradiance(slab, plane.points, at, distance, exact);
+      for (int c = 0; c < 3; ++c) all += exact[c] * exact[c];
+      for (int k = 0; k < count; ++k) {
+        approximation(of, k, at, sum);
+        for (int c = 0; c < 3; ++c) errors[k] += (sum[c] - exact[c]) * (sum[c] - exact[c]);
+      }
+    }
+  for (int k = 0; k < count; ++k) errors[k] = all > 0 ? sqrt(errors[k] / all) : 0;
+}

@@ -35,6 +35,14 @@ double plane_fan_step(const struct plane *plane);
 void plane_irradiance(const struct slab *slab, const int points[2], const double at[2],
                       double distance, double rgb[3]);
 
+/* The irradiance that approximation `k` of `of` gives to a receiver at (x, y, z). */
+typedef void plane_approximation(const void *of, int k, const double at[3], double rgb[3]);
+
+/* The relative RMSE of `count` approximations on the plane at a distance: over its receivers,
+ * the root of the squared errors' sum over that of the slab's own irradiance; 0 without light. */
+void plane_errors(const struct slab *slab, double distance, double margin,
+                  plane_approximation *approximation, const void *of, int count, double *errors);
+
 /* Length of the aperture's edge along SLAB_U or SLAB_V; the longer of both, the unit
  * of relative distances. */
 double plane_edge(const struct slab *slab, int axis);

@@ -1,21 +1,41 @@
-/* cluster.c - how many lights each page of a lamp gets, and how good they are.
+/* cluster.c - area lights that are fitted to a lamp's pages.
  *
- * A page starts with one light; the number doubles, each time with a fit of all,
- * so that more lights are never a worse start than fewer. */
+ * 1. The number of lights is shared among the pages by their flux.
+ * 2. A page becomes a target: its irradiance on receivers of planes around the distance asked
+ *    for, and its flux (cluster_target.c).
+ * 3. Candidates for lights are groups of the slab's 4D cells, in which close cells light the
+ *    same: halved across their longest axis, relaxed by Lloyd's iteration [1] (cluster_seed.c).
+ * 4. Of the candidates, that which takes most of what is left of the target becomes a light,
+ *    with all colours solved for anew, until there are as many as wanted: orthogonal matching
+ *    pursuit [2] (cluster_grow.c), with colours that are not negative [3] (cluster_colours.c).
+ * 5. All numbers of the lights are refined by Levenberg and Marquardt's method [4]; the colours,
+ *    which enter linearly, are solved for at each trial, as in [5] (cluster_fit.c).
+ * 6. From one light on, 4 and 5 are done for twice as many, so that more lights are never a worse
+ *    start than fewer, up to all of the page's, or until they meet the tolerance or twice as
+ *    many help no more. The best are kept.
+ * 7. The error is told on receivers that had no part in the fit.
+ * Nothing is random.
+ *
+ * [1] Lloyd, "Least squares quantization in PCM", 1982.
+ * [2] Pati, Rezaiifar and Krishnaprasad, "Orthogonal matching pursuit", 1993.
+ * [3] Lawson and Hanson, "Solving Least Squares Problems", 1974, chapter 23.
+ * [4] Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", 1963.
+ * [5] Golub and Pereyra, "The differentiation of pseudo-inverses and nonlinear least squares
+ *     problems whose variables separate", 1973. */
 #include "include/cluster/cluster.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "include/text/include_light.h"
-#include "include/text/include_text.h"
-#include "slab/plane.h"
+#include "include/cluster/cluster_fit.h"
+#include "include/cluster/cluster_grow.h"
+#include "include/cluster/cluster_seed.h"
 
 const double cluster_distances[CLUSTER_DISTANCES] = {1, 4, 16};
 
-/* POV-Ray takes light colours up to here; the include divides by 2 pi fade^2. */
-static const double largest_colour = 1e37;
+/* Points of a page's lights. */
+enum { MOST_POINTS = 128 };
 
 /* Twice the lights help if they leave at most this share of the error. */
 static const double least_help = 0.9;
@@ -26,11 +46,9 @@ int cluster_light_count(const struct cluster *cluster) {
   return count;
 }
 
-int cluster_point_count(const struct cluster *cluster) {
+int cluster_page_points(const struct cluster_page *page) {
   int points = 0;
-  for (int p = 0; p < cluster->page_count; ++p)
-    for (int k = 0; k < cluster->pages[p].count; ++k)
-      points += cluster->pages[p].lights[k].size[0] * cluster->pages[p].lights[k].size[1];
+  for (int k = 0; k < page->count; ++k) points += page->lights[k].size[0] * page->lights[k].size[1];
   return points;
 }
 
@@ -46,7 +64,6 @@ struct work {
   struct cluster_target target, gauge; /* to fit to; to tell the error by */
   struct cluster_light *candidates;
   int candidate_count;
-  double unit;
 };
 
 static enum result grow_page(const struct work *work, int wanted, struct cluster_page *page,
@@ -55,13 +72,13 @@ static enum result grow_page(const struct work *work, int wanted, struct cluster
                                     page->lights, &page->count, wanted, error);
   /* The second time with the points that the lights then need. */
   for (int times = 0; times < 2 && result == RESULT_OK; ++times) {
-    cluster_set_sizes(page->lights, page->count, CLUSTER_MOST_SAMPLES);
+    cluster_set_sizes(page->lights, page->count, MOST_POINTS);
     result = cluster_fit(&work->target, page->lights, &page->count, error);
   }
   return result;
 }
 
-/* The lights for good: in the slab's units, with their errors. */
+/* The lights for good: in the slab's units, with their errors. `number` is the page's. */
 static enum result finish_page(const struct work *work, int number, double distance,
                                struct cluster_page *page, struct error *error) {
   double most = 0, fade = 1e-3;
@@ -70,27 +87,19 @@ static enum result finish_page(const struct work *work, int number, double dista
                        number + 1);
   for (int k = 0; k < page->count; ++k)
     for (int c = 0; c < 3; ++c) {
-      page->lights[k].rgb[c] *= work->unit;
+      page->lights[k].rgb[c] *= work->target.unit;
       most = fmax(most, page->lights[k].rgb[c]);
     }
-  if (!(most / (2 * M_PI * fade * fade) <= largest_colour))
-    return result_fail(error, RESULT_BAD,
-                       "page %d: it is brighter than POV-Ray's light colours hold (1e37); use a "
-                       "larger radiance unit",
-                       number + 1);
-  for (int d = 0; d < CLUSTER_DISTANCES; ++d) {
-    struct cluster_target gauge;
+  enum result result = include_check_colour(most / (2 * M_PI * fade * fade), number, error);
+  for (int d = 0; d < CLUSTER_DISTANCES && result == RESULT_OK; ++d) {
+    struct cluster_target gauge = {.count = 0};
     page->error[d] = page->error_at;
     if (cluster_distances[d] == distance) continue;
-    enum result result = cluster_gauge_make(work->slab, cluster_distances[d], &gauge, error);
+    result = cluster_gauge_make(work->slab, cluster_distances[d], &gauge, error);
     if (result == RESULT_OK) page->error[d] = cluster_error(&gauge, page->lights, page->count, 1);
     cluster_target_free(&gauge);
-    if (result != RESULT_OK) return result;
   }
-  page->frame = *work->slab;
-  page->frame.rgb = NULL;
-  page->frame.json = NULL;
-  return slab_flux(work->slab, page->flux, error);
+  return result;
 }
 
 /* Grows a page up to `lights`, or, where that is 0, until it meets the tolerance or twice
@@ -107,7 +116,7 @@ static enum result grow(const struct work *work, int lights, double tolerance,
        wanted = 2 * wanted < most ? 2 * wanted : most) {
     result = grow_page(work, wanted, &now, error);
     if (result != RESULT_OK) break;
-    double reached = cluster_error(&work->gauge, now.lights, now.count, work->unit);
+    double reached = cluster_error(&work->gauge, now.lights, now.count, work->target.unit);
     idle = reached < least_help * page->error_at ? 0 : idle + 1;
     if (reached < page->error_at) {
       memcpy(page->lights, now.lights, (size_t)now.count * sizeof *now.lights);
@@ -128,8 +137,7 @@ static enum result make_page(const struct slab *slab, int number, int lights, do
   page->lights = calloc((size_t)CLUSTER_MOST_LIGHTS, sizeof *page->lights);
   enum result result =
       page->lights ? RESULT_OK : result_fail(error, RESULT_MEMORY, "out of memory");
-  if (result == RESULT_OK)
-    result = cluster_target_make(slab, distance, &work.unit, &work.target, error);
+  if (result == RESULT_OK) result = cluster_target_make(slab, distance, &work.target, error);
   if (result == RESULT_OK) result = cluster_gauge_make(slab, distance, &work.gauge, error);
   if (result == RESULT_OK)
     result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
@@ -145,25 +153,22 @@ static enum result make_page(const struct slab *slab, int number, int lights, do
 
 /* Shares `lights` among the pages by flux, the next to the page with most of it a
  * light. One each, if there are too few. */
-static enum result share_lights(const struct slab *slabs, const int *lit, int count, int lights,
-                                int *shares, struct error *error) {
-  double fluxes[CLUSTER_MOST_PAGES], rgb[3];
-  for (int p = 0; p < count; ++p) {
+static void share_lights(const struct cluster *cluster, int lights, int *shares) {
+  double fluxes[CLUSTER_MOST_PAGES];
+  for (int p = 0; p < cluster->page_count; ++p) {
+    const double *flux = cluster->pages[p].flux;
+    fluxes[p] = flux[0] + flux[1] + flux[2];
     shares[p] = 1;
-    enum result result = slab_flux(&slabs[lit[p]], rgb, error);
-    if (result != RESULT_OK) return result;
-    fluxes[p] = rgb[0] + rgb[1] + rgb[2];
   }
-  for (int left = lights - count; left > 0; --left) {
+  for (int left = lights - cluster->page_count; left > 0; --left) {
     int best = -1;
-    for (int p = 0; p < count; ++p)
+    for (int p = 0; p < cluster->page_count; ++p)
       if (shares[p] < CLUSTER_MOST_LIGHTS &&
           (best < 0 || fluxes[p] / shares[p] > fluxes[best] / shares[best]))
         best = p;
     if (best < 0) break;
     ++shares[best];
   }
-  return RESULT_OK;
 }
 
 static uint64_t stamp_of(const struct cluster *cluster) {
@@ -179,40 +184,48 @@ static uint64_t stamp_of(const struct cluster *cluster) {
   return hash;
 }
 
-enum result cluster_make(const struct slab *slabs, int count, int lights, double tolerance,
-                         double distance, struct cluster *cluster, struct error *error) {
-  int lit[CLUSTER_MOST_PAGES], shares[CLUSTER_MOST_PAGES] = {0}, lit_count = 0;
-  memset(cluster, 0, sizeof *cluster);
-  cluster->distance = distance;
-  for (int k = 0; k < count; ++k) {
-    enum result result = include_check_radiance(&slabs[k], k, error);
-    if (result != RESULT_OK) return result;
-    if (include_peak(&slabs[k]) <= 0) continue;
-    if (lit_count == CLUSTER_MOST_PAGES)
-      return result_fail(error, RESULT_BAD, "more than %d pages are too many for a cluster",
-                         CLUSTER_MOST_PAGES);
-    lit[lit_count++] = k;
-  }
-  cluster->black_pages = count - lit_count;
-  if (!lit_count) return include_no_light(error);
-  if (lights > lit_count * CLUSTER_MOST_LIGHTS)
+static enum result check_counts(int pages, int lights, struct error *error) {
+  if (pages > CLUSTER_MOST_PAGES)
+    return result_fail(error, RESULT_BAD, "more than %d pages are too many for a cluster",
+                       CLUSTER_MOST_PAGES);
+  if (lights > pages * CLUSTER_MOST_LIGHTS)
     return result_fail(error, RESULT_BAD,
                        "%d lights are too many for a cluster, which has at most %d for each page "
                        "with light; ask for --lights %d",
-                       lights, CLUSTER_MOST_LIGHTS, lit_count * CLUSTER_MOST_LIGHTS);
-  if (lights > 0) {
-    enum result result = share_lights(slabs, lit, lit_count, lights, shares, error);
-    if (result != RESULT_OK) return result;
-  }
-  cluster->pages = calloc((size_t)lit_count, sizeof *cluster->pages);
-  if (!cluster->pages) return result_fail(error, RESULT_MEMORY, "out of memory");
-  for (int p = 0; p < lit_count; ++p) {
-    enum result result = make_page(&slabs[lit[p]], lit[p], shares[p], tolerance, distance,
-                                   &cluster->pages[cluster->page_count++], error);
-    if (result != RESULT_OK) return result;
-  }
-  cluster->stamp = stamp_of(cluster);
+                       lights, CLUSTER_MOST_LIGHTS, pages * CLUSTER_MOST_LIGHTS);
   return RESULT_OK;
+}
+
+/* The pages without lights, but with their flux. */
+static enum result make_pages(const struct slab *const *lit, int count, struct cluster *cluster,
+                              struct error *error) {
+  enum result result = RESULT_OK;
+  cluster->pages = calloc((size_t)count, sizeof *cluster->pages);
+  if (!cluster->pages) return result_fail(error, RESULT_MEMORY, "out of memory");
+  cluster->page_count = count;
+  for (int p = 0; p < count && result == RESULT_OK; ++p) {
+    cluster->pages[p].frame = include_frame(lit[p]);
+    result = slab_flux(lit[p], cluster->pages[p].flux, error);
+  }
+  return result;
+}
+
+enum result cluster_make(const struct slab *slabs, int count, int lights, double tolerance,
+                         double distance, struct cluster *cluster, struct error *error) {
+  int shares[CLUSTER_MOST_PAGES] = {0}, lit_count = 0;
+  const struct slab **lit = NULL;
+  memset(cluster, 0, sizeof *cluster);
+  cluster->distance = distance;
+  enum result result = include_lit_pages(slabs, count, &cluster->lamp, &lit, &lit_count, error);
+  if (result == RESULT_OK) result = check_counts(lit_count, lights, error);
+  if (result == RESULT_OK) result = make_pages(lit, lit_count, cluster, error);
+  if (result == RESULT_OK && lights > 0) share_lights(cluster, lights, shares);
+  for (int p = 0; p < lit_count && result == RESULT_OK; ++p)
+    result = make_page(lit[p], (int)(lit[p] - slabs), shares[p], tolerance, distance,
+                       &cluster->pages[p], error);
+  if (result == RESULT_OK) cluster->lamp.stamp = stamp_of(cluster);
+  free(lit);
+  return result;
 }
 
 void cluster_free(struct cluster *cluster) {

@@ -1,40 +1,26 @@
-/* cluster_grow.c - more lights, where most is left to explain (orthogonal matching
- * pursuit). */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+/* cluster_grow.c - orthogonal matching pursuit. */
+#include "include/cluster/cluster_grow.h"
 
-#include "include/cluster/cluster.h"
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "include/cluster/cluster_colours.h"
 
 struct growth {
-  const struct cluster_target *target;
-  int rows, wanted, candidate_count;
-  double *tables; /* candidates x rows; owned, as all below */
-  double *base;   /* rows x lights */
-  bool *taken;
-  struct cluster_system system;
+  int rows, candidate_count;
+  double *tables;                 /* candidates x rows; owned, as all below */
+  double *base;                   /* rows x lights */
+  bool *taken;                    /* of the candidates */
+  struct cluster_colours colours; /* its rest is owned */
 };
 
-static bool allocate(struct growth *g) {
-  size_t rows = (size_t)g->rows;
-  g->tables = calloc(rows * (size_t)g->candidate_count, sizeof *g->tables);
-  g->base = calloc(rows * (size_t)g->wanted, sizeof *g->base);
-  g->taken = calloc((size_t)g->candidate_count, sizeof *g->taken);
-  return g->tables && g->base && g->taken && cluster_system_make(g->wanted, g->rows, &g->system);
-}
-
-static void release(struct growth *g) {
-  free(g->tables);
-  free(g->base);
-  free(g->taken);
-  cluster_system_free(&g->system);
-}
-
-/* Solves for the colours of the first `count` lights. */
-static void solve(struct growth *g, const struct cluster_light *lights, int count) {
-  for (int k = 0; k < count; ++k) cluster_rows(g->target, &lights[k], g->base + k, (size_t)count);
-  g->system.lights = count;
-  cluster_solve(g->target, &g->system, g->base);
+static bool allocate(struct growth *g, int wanted) {
+  size_t rows = (size_t)g->rows, candidates = (size_t)g->candidate_count;
+  g->tables = calloc(rows * candidates, sizeof *g->tables);
+  g->base = calloc(rows * (size_t)wanted, sizeof *g->base);
+  g->taken = calloc(candidates, sizeof *g->taken);
+  g->colours.rest = calloc(rows, sizeof *g->colours.rest);
+  return g->tables && g->base && g->taken && g->colours.rest;
 }
 
 /* The candidate that takes most of what is left; -1 where none takes anything. */
@@ -46,7 +32,7 @@ static int best_candidate(const struct growth *g) {
     double size = 0, along[3] = {0}, gain = 0;
     for (int r = 0; r < g->rows && !g->taken[k]; ++r) {
       size += table[r] * table[r];
-      for (int c = 0; c < 3; ++c) along[c] += table[r] * g->system.rest[r][c];
+      for (int c = 0; c < 3; ++c) along[c] += table[r] * g->colours.rest[r][c];
     }
     for (int c = 0; c < 3; ++c) gain += along[c] > 0 ? along[c] * along[c] : 0;
     if (!(size > 0) || gain / size <= most) continue;
@@ -60,24 +46,22 @@ enum result cluster_grow(const struct cluster_target *target,
                          const struct cluster_light *candidates, int candidate_count,
                          struct cluster_light *lights, int *count, int wanted,
                          struct error *error) {
-  struct growth g = {.target = target,
-                     .rows = target->count + 1,
-                     .wanted = wanted,
-                     .candidate_count = candidate_count};
+  struct growth g = {.rows = target->count + 1, .candidate_count = candidate_count};
   enum result result = RESULT_OK;
-  if (allocate(&g)) {
-    for (int k = 0; k < candidate_count; ++k)
-      cluster_rows(target, &candidates[k], g.tables + (size_t)k * (size_t)g.rows, 1);
-    while (*count < wanted) {
-      solve(&g, lights, *count);
-      int best = best_candidate(&g);
-      if (best < 0) break;
-      g.taken[best] = true;
-      lights[(*count)++] = candidates[best];
-    }
-  } else {
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!allocate(&g, wanted)) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  for (int k = 0; k < candidate_count && result == RESULT_OK; ++k)
+    cluster_rows(target, &candidates[k], g.tables + (size_t)k * (size_t)g.rows, 1);
+  while (*count < wanted && result == RESULT_OK) {
+    for (int k = 0; k < *count; ++k) cluster_rows(target, &lights[k], g.base + k, *count);
+    cluster_solve(target, *count, g.base, &g.colours);
+    int best = best_candidate(&g);
+    if (best < 0) break;
+    g.taken[best] = true;
+    lights[(*count)++] = candidates[best];
   }
-  release(&g);
+  free(g.tables);
+  free(g.base);
+  free(g.taken);
+  free(g.colours.rest);
   return result;
 }

@@ -1,10 +1,9 @@
-/* cluster_light.c - what one light does, and the colours that suit several best. */
+/* cluster_light.c - what one light does, and how that changes with its numbers. */
+#include "include/cluster/cluster_light.h"
+
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "include/cluster/cluster.h"
-#include "include/cluster/nnls.h"
 #include "slab/slab_gauss.h"
 
 enum { LOBE_NODES = 12, LOBE_PIECES = 12 };
@@ -17,18 +16,35 @@ static double lobe(const struct cluster_light *light, double cosine) {
   return value * p * p * (3 - 2 * p);
 }
 
+/* A receiver as a point of the light sees it, (p, q) edges away from the middle. */
+struct sight {
+  double x[2], r2, r, cosine; /* `cosine` to the lobe's axis, whose length is `size` */
+};
+
+static struct sight sight_of(const struct cluster_light *light, double size, double p, double q,
+                             const double at[3]) {
+  struct sight sight;
+  for (int c = 0; c < 2; ++c)
+    sight.x[c] = at[c] - light->center[c] - p * light->edge[0][c] - q * light->edge[1][c];
+  sight.r2 = sight.x[0] * sight.x[0] + sight.x[1] * sight.x[1] + at[2] * at[2];
+  sight.r = sqrt(sight.r2);
+  sight.cosine =
+      (sight.x[0] * light->axis[0] + sight.x[1] * light->axis[1] + at[2]) / (sight.r * size);
+  return sight;
+}
+
+static double axis_size(const struct cluster_light *light) {
+  return sqrt(1 + light->axis[0] * light->axis[0] + light->axis[1] * light->axis[1]);
+}
+
 double cluster_irradiance(const struct cluster_light *light, const double at[3]) {
-  double sum = 0,
-         size = sqrt(1 + light->axis[0] * light->axis[0] + light->axis[1] * light->axis[1]);
+  double sum = 0, size = axis_size(light);
   int nu = light->size[0], nv = light->size[1];
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i) {
-      double p = (i + 0.5) / nu - 0.5, q = (j + 0.5) / nv - 0.5;
-      double x = at[0] - light->center[0] - p * light->edge[0][0] - q * light->edge[1][0];
-      double y = at[1] - light->center[1] - p * light->edge[0][1] - q * light->edge[1][1];
-      double r2 = x * x + y * y + at[2] * at[2], r = sqrt(r2);
-      double cosine = (x * light->axis[0] + y * light->axis[1] + at[2]) / (r * size);
-      if (cosine > light->cos_falloff) sum += lobe(light, cosine) * at[2] / (r2 * r);
+      struct sight sight = sight_of(light, size, (i + 0.5) / nu - 0.5, (j + 0.5) / nv - 0.5, at);
+      if (sight.cosine > light->cos_falloff)
+        sum += lobe(light, sight.cosine) * at[2] / (sight.r2 * sight.r);
     }
   return sum / (nu * nv);
 }
@@ -44,73 +60,84 @@ double cluster_flux(const struct cluster_light *light) {
   return 2 * M_PI * (sum + (1 - pow(light->cos_radius, power)) / power);
 }
 
+/* A lobe of the cosine `c` to its axis: its value and derivatives. */
+struct lobe_gradient {
+  double value, by_cosine, by_tightness, by_falloff, by_softness;
+};
+
+static struct lobe_gradient lobe_gradient(const struct cluster_light *light, double c) {
+  double n = light->tightness, logarithm = log(c), power = exp(n * logarithm);
+  double room = 1 - light->cos_falloff, edge = light->cos_radius - light->cos_falloff;
+  double p = fmin((c - light->cos_falloff) / edge, 1), share = p * p * (3 - 2 * p);
+  double steep = power * 6 * p * (1 - p); /* of the value, by p; 0 inside the radius */
+  return (struct lobe_gradient){.value = power * share,
+                                .by_cosine = n / c * power * share + steep / edge,
+                                .by_tightness = (n + 1) * logarithm * power * share,
+                                .by_falloff = steep * (c - 1) / (edge * room),
+                                .by_softness = -steep * p * room / edge};
+}
+
+static void add_point(const struct cluster_light *light, double size, double p, double q,
+                      const double at[3], struct cluster_numbers *gradient) {
+  const double *axis = light->axis;
+  const struct sight sight = sight_of(light, size, p, q, at);
+  const double *x = sight.x, r = sight.r, r2 = sight.r2, c = sight.cosine;
+  double facing = at[2] / (r2 * r), by_place[2];
+  if (c <= light->cos_falloff) return;
+  struct lobe_gradient lobe = lobe_gradient(light, c);
+  for (int k = 0; k < 2; ++k) {
+    by_place[k] = -facing * (lobe.by_cosine * (axis[k] / (r * size) - c * x[k] / r2) -
+                             3 * lobe.value * x[k] / r2);
+    gradient->center[k] += by_place[k];
+    gradient->axis[k] +=
+        facing * lobe.by_cosine * (x[k] / (r * size) - c * axis[k] / (size * size));
+  }
+  for (int k = 0; k < 2; ++k)
+    gradient->scale[k] +=
+        (k ? q : p) * (light->edge[k][0] * by_place[0] + light->edge[k][1] * by_place[1]);
+  gradient->tightness += facing * lobe.by_tightness;
+  gradient->falloff += facing * lobe.by_falloff;
+  gradient->softness += facing * lobe.by_softness;
+}
+
+struct cluster_numbers cluster_gradient(const struct cluster_light *light, const double at[3]) {
+  struct cluster_numbers gradient = {0};
+  int nu = light->size[0], nv = light->size[1];
+  double size = axis_size(light);
+  for (int j = 0; j < nv; ++j)
+    for (int i = 0; i < nu; ++i)
+      add_point(light, size, (i + 0.5) / nu - 0.5, (j + 0.5) / nv - 0.5, at, &gradient);
+  for (int n = 0; n < CLUSTER_NUMBERS; ++n) gradient.x[n] /= nu * nv;
+  return gradient;
+}
+
+struct cluster_numbers cluster_to_numbers(const struct cluster_light *light) {
+  return (struct cluster_numbers){.center = {light->center[0], light->center[1]},
+                                  .axis = {light->axis[0], light->axis[1]},
+                                  .tightness = log1p(light->tightness),
+                                  .falloff = light->cos_falloff,
+                                  .softness = (light->cos_radius - light->cos_falloff) /
+                                              (1 - light->cos_falloff)};
+}
+
+struct cluster_light cluster_from_numbers(const struct cluster_numbers *n,
+                                          const struct cluster_light *seed) {
+  struct cluster_light light = *seed;
+  double tilt = hypot(n->axis[0], n->axis[1]);
+  for (int k = 0; k < 2; ++k) {
+    light.center[k] = n->center[k];
+    light.axis[k] = n->axis[k];
+    for (int c = 0; c < 2; ++c) light.edge[k][c] *= exp(n->scale[k]);
+  }
+  light.tightness = expm1(n->tightness);
+  light.cos_falloff = fmax(n->falloff, tilt / sqrt(1 + tilt * tilt));
+  light.cos_radius = light.cos_falloff + n->softness * (1 - light.cos_falloff);
+  return light;
+}
+
 int cluster_drop_dark(struct cluster_light *lights, int count) {
   int kept = 0;
   for (int k = 0; k < count; ++k)
     if (lights[k].rgb[0] + lights[k].rgb[1] + lights[k].rgb[2] > 0) lights[kept++] = lights[k];
   return kept;
-}
-
-void cluster_rows(const struct cluster_target *target, const struct cluster_light *light,
-                  double *table, size_t step) {
-  for (int r = 0; r < target->count; ++r)
-    table[(size_t)r * step] = target->weight[r] * cluster_irradiance(light, target->at[r]);
-  table[(size_t)target->count * step] = target->weight[target->count] * cluster_flux(light);
-}
-
-bool cluster_system_make(int lights, int rows, struct cluster_system *system) {
-  size_t n = (size_t)lights;
-  system->lights = lights;
-  system->rgb = calloc(n, sizeof *system->rgb);
-  system->rest = calloc((size_t)rows, sizeof *system->rest);
-  system->gram = calloc(n * n, sizeof *system->gram);
-  system->side = calloc(2 * n, sizeof *system->side);
-  system->scratch = calloc(n * (n + 4), sizeof *system->scratch);
-  return system->rgb && system->rest && system->gram && system->side && system->scratch;
-}
-
-void cluster_system_free(struct cluster_system *system) {
-  free(system->rgb);
-  free(system->rest);
-  free(system->gram);
-  free(system->side);
-  free(system->scratch);
-  memset(system, 0, sizeof *system);
-}
-
-static void make_gram(const double *base, int rows, int n, double *gram) {
-  memset(gram, 0, (size_t)n * (size_t)n * sizeof *gram);
-  for (int r = 0; r < rows; ++r) {
-    const double *row = base + (size_t)r * (size_t)n;
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j <= i && row[i] > 0; ++j) gram[i * n + j] += row[i] * row[j];
-  }
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < i; ++j) gram[j * n + i] = gram[i * n + j];
-}
-
-double cluster_solve(const struct cluster_target *target, struct cluster_system *system,
-                     const double *base) {
-  int n = system->lights, rows = target->count + 1;
-  double *colours = system->side + n, squares = 0;
-  make_gram(base, rows, n, system->gram);
-  for (int c = 0; c < 3; ++c) {
-    memset(system->side, 0, (size_t)n * sizeof *system->side);
-    for (int r = 0; r < rows; ++r) {
-      double value = target->weight[r] * target->rgb[r][c];
-      for (int i = 0; i < n; ++i)
-        system->side[i] += value * base[(size_t)r * (size_t)n + (size_t)i];
-    }
-    nnls_solve(n, system->gram, system->side, colours, system->scratch);
-    for (int i = 0; i < n; ++i) system->rgb[i][c] = colours[i];
-  }
-  for (int r = 0; r < rows; ++r)
-    for (int c = 0; c < 3; ++c) {
-      double rest = target->weight[r] * target->rgb[r][c];
-      for (int i = 0; i < n; ++i)
-        rest -= system->rgb[i][c] * base[(size_t)r * (size_t)n + (size_t)i];
-      system->rest[r][c] = rest;
-      squares += rest * rest;
-    }
-  return squares;
 }

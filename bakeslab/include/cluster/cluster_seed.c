@@ -4,11 +4,12 @@
  * there lights the same part of a plane at the distance D. Groups are halved
  * across their longest axis, the one with the largest moment first, then
  * relaxed by Lloyd's iteration. */
+#include "include/cluster/cluster_seed.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "include/cluster/cluster.h"
 #include "include/cluster/parallelogram.h"
 #include "slab/plane.h"
 #include "slab/slab_resample.h"
@@ -34,7 +35,7 @@ struct cell {
   int place, group; /* index of its uv sample, of its group */
 };
 
-struct row_sum {
+struct cell_list {
   struct cell *cells; /* owned */
   int count;
   double distance;
@@ -44,7 +45,8 @@ struct moments {
   double energy, mean[4], covariance[4][4];
 };
 
-static enum result list_cells(const struct slab *slab, struct row_sum *list, struct error *error) {
+static enum result list_cells(const struct slab *slab, struct cell_list *list,
+                              struct error *error) {
   double width = plane_width(slab), kappa = slab_kappa(slab);
   list->cells = calloc(slab_sample_count(slab), sizeof *list->cells);
   if (!list->cells) return result_fail(error, RESULT_MEMORY, "out of memory");
@@ -67,7 +69,7 @@ static enum result list_cells(const struct slab *slab, struct row_sum *list, str
   return RESULT_OK;
 }
 
-static struct moments group_moments(const struct row_sum *list, int group) {
+static struct moments group_moments(const struct cell_list *list, int group) {
   struct moments m = {0};
   for (int k = 0; k < list->count; ++k) {
     const struct cell *cell = &list->cells[k];
@@ -107,7 +109,7 @@ static double spread_of(const struct moments *m) {
 }
 
 /* Halves the group with the largest moment until there are `wanted`. */
-static int split_groups(struct row_sum *list, int wanted) {
+static int split_groups(struct cell_list *list, int wanted) {
   struct moments groups[CLUSTER_MOST_LIGHTS];
   int count = 1;
   groups[0] = group_moments(list, 0);
@@ -147,7 +149,7 @@ static int nearest(const struct moments *groups, int count, const double x[4]) {
   return best;
 }
 
-static void relax_groups(struct row_sum *list, int count) {
+static void relax_groups(struct cell_list *list, int count) {
   struct moments groups[CLUSTER_MOST_LIGHTS];
   for (int step = 0; step < LLOYD_STEPS; ++step) {
     for (int g = 0; g < count; ++g) groups[g] = group_moments(list, g);
@@ -168,7 +170,7 @@ static int by_energy(const void *a, const void *b) {
 }
 
 /* The smallest parallelogram around the uv samples of a group, the faintest left out. */
-static enum result support(const struct slab *slab, const struct row_sum *list, int group,
+static enum result support(const struct slab *slab, const struct cell_list *list, int group,
                            struct parallelogram *found, struct error *error) {
   struct place places[MOST_UV * MOST_UV];
   double corners[4 * MOST_UV * MOST_UV][2], total = 0, kept = 0;
@@ -235,7 +237,7 @@ void cluster_set_sizes(struct cluster_light *lights, int count, int most) {
 }
 
 /* Lights for the groups of one level. */
-static enum result add_level(const struct slab *slab, struct row_sum *list, int wanted,
+static enum result add_level(const struct slab *slab, struct cell_list *list, int wanted,
                              struct cluster_light *lights, int *count, struct error *error) {
   enum result result = RESULT_OK;
   for (int k = 0; k < list->count; ++k) list->cells[k].group = 0;
@@ -272,7 +274,7 @@ static void add_plain(const struct cluster_light *whole, struct cluster_light *l
 enum result cluster_seed(const struct slab *slab, double distance,
                          struct cluster_light **candidates, int *count, struct error *error) {
   struct slab coarse = {0};
-  struct row_sum list = {.distance = distance};
+  struct cell_list list = {.distance = distance};
   int samples[SLAB_AXES];
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     int most = axis < SLAB_S ? MOST_UV : MOST_ST;

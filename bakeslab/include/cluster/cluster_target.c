@@ -1,9 +1,10 @@
 /* cluster_target.c - receivers that see the lights and the slab. */
+#include "include/cluster/cluster_target.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "include/cluster/cluster.h"
 #include "slab/plane.h"
 
 enum { PLANES = 5 };
@@ -18,14 +19,19 @@ static const double shares[PLANES] = {0.25, 0.5, 1, 2, 4},
  * more directions than one plane does, and no lobe hides between them. */
 static const int receivers[PLANES] = {22, 22, 28, 26, 30};
 
+/* And of those that tell the error: at least twice as many, so that no lobe that the fit allows
+ * hides between them; and odd, where the fit's are even, so that none is the fit's. */
+enum { GAUGE_RECEIVERS = 57 };
+
 /* Beyond what the slab lights, lights must be dark. */
-static const double margin = 1.25;
+static const double margin = 1.25, gauge_margin = 1.1;
 
 /* The flux counts as much as this many planes. */
 static const double flux_weight = 5;
 
-void cluster_target_add(const struct slab *slab, const struct plane *plane, double weight,
-                        struct cluster_target *target) {
+/* Adds a plane's receivers, at equal angles. */
+static void add_plane(const struct slab *slab, const struct plane *plane, double weight,
+                      struct cluster_target *target) {
   double width = plane_width(slab), square = 0;
   int first = target->count;
   /* Half as many as the sheet's errors need, which are ten times smaller. */
@@ -44,7 +50,7 @@ void cluster_target_add(const struct slab *slab, const struct plane *plane, doub
     target->weight[k] *= square > 0 ? weight / sqrt(square) : 0;
 }
 
-enum result cluster_target_room(int count, struct cluster_target *target, struct error *error) {
+static enum result make_room(int count, struct cluster_target *target, struct error *error) {
   size_t room = (size_t)count + 1;
   memset(target, 0, sizeof *target);
   target->at = calloc(room, sizeof *target->at);
@@ -55,18 +61,18 @@ enum result cluster_target_room(int count, struct cluster_target *target, struct
   return RESULT_OK;
 }
 
-enum result cluster_target_make(const struct slab *slab, double distance, double *unit,
+enum result cluster_target_make(const struct slab *slab, double distance,
                                 struct cluster_target *target, struct error *error) {
   int room = 0;
   double width = plane_width(slab), most = 0;
   for (int p = 0; p < PLANES; ++p) room += receivers[p] * receivers[p];
-  enum result result = cluster_target_room(room, target, error);
+  enum result result = make_room(room, target, error);
   if (result != RESULT_OK) return result;
   for (int k = 0; k < 2; ++k) target->edge[k] = plane_edge(slab, k) / width;
-  memcpy(target->slopes, slab->st_window, sizeof target->slopes);
+  memcpy(target->window, slab->st_window, sizeof target->window);
   for (int p = 0; p < PLANES; ++p) {
     struct plane plane = plane_make(slab, shares[p] * distance * width, margin, receivers[p]);
-    cluster_target_add(slab, &plane, weights[p], target);
+    add_plane(slab, &plane, weights[p], target);
     target->narrowest = fmax(target->narrowest, plane_fan_step(&plane));
   }
   double *flux = target->rgb[target->count];
@@ -76,7 +82,7 @@ enum result cluster_target_make(const struct slab *slab, double distance, double
     flux[c] /= width * width;
     most = fmax(most, flux[c]);
   }
-  *unit = most;
+  target->unit = most;
   for (int k = 0; k <= target->count; ++k) {
     for (int c = 0; c < 3; ++c) target->rgb[k][c] /= most;
     target->weight[k] *= most;
@@ -85,9 +91,34 @@ enum result cluster_target_make(const struct slab *slab, double distance, double
   return RESULT_OK;
 }
 
+enum result cluster_gauge_make(const struct slab *slab, double distance,
+                               struct cluster_target *gauge, struct error *error) {
+  enum result result = make_room(GAUGE_RECEIVERS * GAUGE_RECEIVERS, gauge, error);
+  if (result != RESULT_OK) return result;
+  struct plane plane = plane_make(slab, distance * plane_width(slab), gauge_margin, 0);
+  plane.receivers = GAUGE_RECEIVERS;
+  add_plane(slab, &plane, 1, gauge);
+  return RESULT_OK;
+}
+
 void cluster_target_free(struct cluster_target *target) {
   free(target->at);
   free(target->rgb);
   free(target->weight);
   memset(target, 0, sizeof *target);
+}
+
+double cluster_error(const struct cluster_target *gauge, const struct cluster_light *lights,
+                     int count, double unit) {
+  double error = 0;
+  for (int r = 0; r < gauge->count; ++r) {
+    double rest[3];
+    memcpy(rest, gauge->rgb[r], sizeof rest);
+    for (int k = 0; k < count; ++k) {
+      double share = unit * cluster_irradiance(&lights[k], gauge->at[r]);
+      for (int c = 0; c < 3; ++c) rest[c] -= lights[k].rgb[c] * share;
+    }
+    for (int c = 0; c < 3; ++c) error += gauge->weight[r] * gauge->weight[r] * rest[c] * rest[c];
+  }
+  return sqrt(error);
 }

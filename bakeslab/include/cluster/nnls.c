@@ -63,12 +63,12 @@ void nnls_solve(int n, const double *a, const double *b, double *x, double *scra
     int best = -1;
     double steepest = 0;
     for (int i = 0; i < n; ++i) {
-      double slope = b[i];
-      for (int j = 0; j < n; ++j) slope -= a[i * n + j] * x[j];
-      if (used[i] > 0 || tried[i] > 0 || !(slope > 1e-12 * fabs(b[i]))) continue;
-      slope /= sqrt(a[i * n + i]);
-      if (slope <= steepest) continue;
-      steepest = slope;
+      double gradient = b[i];
+      for (int j = 0; j < n; ++j) gradient -= a[i * n + j] * x[j];
+      if (used[i] > 0 || tried[i] > 0 || !(gradient > 1e-12 * fabs(b[i]))) continue;
+      gradient /= sqrt(a[i * n + i]);
+      if (gradient <= steepest) continue;
+      steepest = gradient;
       best = i;
     }
     if (best < 0) return;

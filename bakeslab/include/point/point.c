@@ -1,13 +1,18 @@
-/* point.c - the far field of a lamp. */
+/* point.c - the far field of a lamp.
+ *
+ * 1. The far field along a direction is the sum over all pages and their views of radiance
+ *    times cosine times a view's share of the aperture.
+ * 2. It is painted as a lat-long image, each channel over its peak, rounded as the file will be.
+ * 3. What the image holds as 1 gets the intensity that makes the light's flux the slab's.
+ * 4. Its errors are told before each page: of the image for a lamp of one page, else of the
+ *    page's own far field. */
 #include "include/point/point.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "file/slab_half.h"
-#include "include/text/include_light.h"
 #include "slab/plane.h"
 #include "slab/slab_resample.h"
 
@@ -16,18 +21,20 @@ const double point_distances[POINT_DISTANCES] = {1, 4, 16};
 /* The image is fine, since a window may end sharply. */
 enum { LEAST_WIDTH = 1024, MOST_WIDTH = 2048, MOST_VIEWS = 8 };
 
-static const double largest_colour = 1e37, margin = 1.1;
+/* Errors are told around what a page lights, too. */
+static const double margin = 1.1;
 
 /* Far away a page is its views' sum: one view where the st plane is at infinity, so
  * that all see the same slopes. */
 struct far_page {
+  const struct slab *slab;
   struct slab views; /* owned */
   double u[3], v[3]; /* unit */
   double shift[3];   /* of its centre from the lamp's, along u, v and normal */
 };
 
 struct far_lamp {
-  struct far_page *pages; /* owned */
+  struct far_page *pages; /* with light; owned */
   int count;
 };
 
@@ -38,6 +45,7 @@ static double dot(const double x[3], const double y[3]) {
 static enum result make_far_page(const struct slab *slab, struct far_page *far,
                                  struct error *error) {
   int most = slab_kappa(slab) > 0 ? MOST_VIEWS : 1, samples[SLAB_AXES];
+  far->slab = slab;
   memcpy(samples, slab->samples, sizeof samples);
   for (int axis = SLAB_U; axis <= SLAB_V; ++axis)
     if (samples[axis] > most) samples[axis] = most;
@@ -64,6 +72,21 @@ static void add_intensity(const struct far_page *far, const double direction[3],
     }
 }
 
+/* Of the image's texel (i, j), the unit vector in the image's own axes. */
+static void texel_direction(const struct picture *picture, int i, int j, double direction[3]) {
+  double step = M_PI / picture->height;
+  double latitude = (j + 0.5) * step - M_PI / 2, longitude = (i + 0.5) * step;
+  direction[0] = cos(latitude) * cos(longitude);
+  direction[1] = sin(latitude);
+  direction[2] = cos(latitude) * sin(longitude);
+}
+
+/* A vector along u, v and the normal of a page, in lamp space. */
+static void to_lamp(const struct far_page *far, const double x[3], double vector[3]) {
+  for (int c = 0; c < 3; ++c)
+    vector[c] = x[0] * far->u[c] + x[1] * far->v[c] + x[2] * far->views.normal[c];
+}
+
 /* Wide enough for two columns in the narrowest sample, at the window's corner. */
 static int image_width(const struct far_lamp *lamp) {
   double least = INFINITY;
@@ -85,28 +108,26 @@ static enum result paint(const struct far_lamp *lamp, struct point *point, doubl
                          struct error *error) {
   struct picture *picture = &point->picture;
   int width = image_width(lamp), height = width / 2;
-  double step = M_PI / height, peak[3] = {0, 0, 0},
-         *image = calloc((size_t)width * (size_t)height * 3, sizeof *image);
-  picture->rgb = calloc((size_t)width * (size_t)height * 3, sizeof *picture->rgb);
+  size_t values = (size_t)width * (size_t)height * 3;
+  double step = M_PI / height, peak[3] = {0, 0, 0}, *image = calloc(values, sizeof *image);
+  picture->rgb = calloc(values, sizeof *picture->rgb);
   if (!image || !picture->rgb) {
     free(image);
     return result_fail(error, RESULT_MEMORY, "out of memory for the image");
   }
   picture->width = width;
   picture->height = height;
-  const struct far_page *first = &lamp->pages[0];
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i) {
-      double latitude = (j + 0.5) * step - M_PI / 2, longitude = (i + 0.5) * step, direction[3];
+      double along[3], direction[3];
       double *rgb = image + 3 * ((size_t)(height - 1 - j) * (size_t)width + (size_t)i);
-      for (int c = 0; c < 3; ++c)
-        direction[c] = cos(latitude) * cos(longitude) * first->u[c] + sin(latitude) * first->v[c] +
-                       cos(latitude) * sin(longitude) * first->views.normal[c];
+      texel_direction(picture, i, j, along);
+      to_lamp(&lamp->pages[0], along, direction);
       for (int p = 0; p < lamp->count; ++p) add_intensity(&lamp->pages[p], direction, rgb);
       for (int c = 0; c < 3; ++c) peak[c] = fmax(peak[c], rgb[c]);
     }
   flux[0] = flux[1] = flux[2] = 0;
-  for (size_t k = 0; k < (size_t)width * (size_t)height * 3; ++k) {
+  for (size_t k = 0; k < values; ++k) {
     if (!(peak[k % 3] > 0)) continue;
     double latitude = ((height - 0.5) - (double)(k / 3 / (size_t)width)) * step - M_PI / 2;
     picture->rgb[k] = slab_half_to_float(slab_half_from_float((float)(image[k] / peak[k % 3])));
@@ -118,8 +139,7 @@ static enum result paint(const struct far_lamp *lamp, struct point *point, doubl
 }
 
 /* The texel nearest to a quarter in some channel, off the poles. */
-static void choose_check(struct point *point) {
-  const struct picture *picture = &point->picture;
+static void choose_check(const struct picture *picture, struct include_check *check) {
   double best = INFINITY;
   int height = picture->height, width = picture->width;
   for (int j = height / 8; j < height - height / 8; ++j)
@@ -128,13 +148,10 @@ static void choose_check(struct point *point) {
       for (int c = 0; c < 3; ++c) {
         double miss = fabs((double)rgb[c] - 0.25);
         if (miss >= best) continue;
-        double latitude = (j + 0.5) * M_PI / height - M_PI / 2;
-        double longitude = (i + 0.5) * 2 * M_PI / width;
         best = miss;
-        point->check = (struct include_check){
-            .at = {cos(latitude) * cos(longitude), sin(latitude), cos(latitude) * sin(longitude)},
-            .rgb = {(double)rgb[0], (double)rgb[1], (double)rgb[2]},
-            .channel = c};
+        *check = (struct include_check){.rgb = {(double)rgb[0], (double)rgb[1], (double)rgb[2]},
+                                        .channel = c};
+        texel_direction(picture, i, j, check->at);
       }
     }
 }
@@ -155,137 +172,119 @@ static void look_up(const struct point *point, const double direction[3], double
   }
 }
 
-/* Irradiance of the far field on a receiver before a page: of the page's own light,
- * or, where it is the only one, of the image. */
-static void far_irradiance(const struct point *point, const struct far_page *far, bool alone,
-                           const double at[3], double rgb[3]) {
-  double place[3], direction[3], r2 = 0;
-  for (int c = 0; c < 3; ++c) {
-    place[c] = at[c] + far->shift[c];
-    r2 += place[c] * place[c];
-  }
-  double r = sqrt(r2);
+/* What the errors of a page are told of. */
+struct far_light {
+  const struct point *point;
+  const struct far_lamp *lamp;
+  const struct far_page *far;
+};
+
+/* Irradiance of the far field on a receiver before a page: of the page's own light, or, where
+ * it is the only one, of the image. */
+static void far_irradiance(const void *of, int number, const double at[3], double rgb[3]) {
+  (void)number;
+  const struct far_light *light = of;
+  const struct far_page *far = light->far;
+  double along[3], direction[3];
+  for (int c = 0; c < 3; ++c) along[c] = at[c] + far->shift[c];
+  double r2 = dot(along, along), r = sqrt(r2);
+  for (int c = 0; c < 3; ++c) along[c] /= r;
+  to_lamp(far, along, direction);
   rgb[0] = rgb[1] = rgb[2] = 0;
-  if (alone) {
-    for (int c = 0; c < 3; ++c) direction[c] = place[c] / r;
-    look_up(point, direction, rgb);
-  } else {
-    for (int c = 0; c < 3; ++c)
-      direction[c] =
-          (place[0] * far->u[c] + place[1] * far->v[c] + place[2] * far->views.normal[c]) / r;
+  if (light->lamp->count == 1)
+    look_up(light->point, along, rgb);
+  else
     add_intensity(far, direction, rgb);
-  }
-  for (int c = 0; c < 3; ++c) rgb[c] *= place[2] / r / r2;
+  for (int c = 0; c < 3; ++c) rgb[c] *= along[2] / r2;
 }
 
-/* Relative RMSE on a plane before a page, and around what the page lights there. */
-static double far_error(const struct slab *slab, const struct point *point,
-                        const struct far_page *far, bool alone, double distance) {
-  double error = 0, size = 0;
-  struct plane plane = plane_make(slab, distance * plane_width(slab), margin, 0);
-  for (int row = 0; row < plane.receivers; ++row)
-    for (int column = 0; column < plane.receivers; ++column) {
-      double at[3] = {0, 0, plane.distance}, exact[3], sum[3];
-      plane_receiver(&plane, column, row, at);
-      plane_irradiance(slab, plane.points, at, plane.distance, exact);
-      far_irradiance(point, far, alone, at, sum);
-      for (int c = 0; c < 3; ++c) {
-        size += exact[c] * exact[c];
-        error += (sum[c] - exact[c]) * (sum[c] - exact[c]);
-      }
-    }
-  return size > 0 ? sqrt(error / size) : 0;
+/* Makes `*worst` at least the error before a page, at a distance in aperture widths. */
+static void measure_at(const struct far_light *light, double distance, double *worst) {
+  const struct slab *slab = light->far->slab;
+  double error;
+  plane_errors(slab, distance * plane_width(slab), margin, far_irradiance, light, 1, &error);
+  *worst = fmax(*worst, error);
 }
 
-static void measure(const struct slab *slabs, int count, const struct far_lamp *lamp,
-                    struct point *point) {
-  bool alone = lamp->count == 1;
-  for (int k = 0, p = 0; k < count; ++k) {
-    if (include_peak(&slabs[k]) <= 0) continue;
-    struct far_page *far = &lamp->pages[p++];
+static void measure(const struct far_lamp *lamp, struct point *point) {
+  for (int p = 0; p < lamp->count; ++p) {
+    struct far_page *far = &lamp->pages[p];
+    const struct far_light light = {point, lamp, far};
     double from[3];
-    for (int c = 0; c < 3; ++c) from[c] = slabs[k].center[c] - point->center[c];
+    for (int c = 0; c < 3; ++c) from[c] = far->slab->center[c] - point->center[c];
     far->shift[0] = dot(from, far->u);
     far->shift[1] = dot(from, far->v);
-    far->shift[2] = dot(from, slabs[k].normal);
+    far->shift[2] = dot(from, far->slab->normal);
     for (int d = 0; d < POINT_DISTANCES; ++d)
-      point->error[d] =
-          fmax(point->error[d], far_error(&slabs[k], point, far, alone, point_distances[d]));
-    point->error_at =
-        fmax(point->error_at, far_error(&slabs[k], point, far, alone, point->distance));
+      measure_at(&light, point_distances[d], &point->error[d]);
+    measure_at(&light, point->distance, &point->error_at);
   }
 }
 
 /* The pages with light, where the lamp's centre is, and its flux. */
-static enum result gather(const struct slab *slabs, int count, struct far_lamp *lamp,
+static enum result gather(const struct slab *const *lit, int count, struct far_lamp *lamp,
                           struct point *point, struct error *error) {
   double total = 0;
   lamp->pages = calloc((size_t)count, sizeof *lamp->pages);
   if (!lamp->pages) return result_fail(error, RESULT_MEMORY, "out of memory");
-  for (int k = 0; k < count; ++k) {
+  for (int p = 0; p < count; ++p) {
     double flux[3];
-    enum result result = include_check_radiance(&slabs[k], k, error);
-    if (result != RESULT_OK) return result;
-    if (include_peak(&slabs[k]) <= 0) continue;
-    if (lamp->count == 0) {
-      point->frame = slabs[k];
-      point->frame.rgb = NULL;
-      point->frame.json = NULL;
-    }
-    result = make_far_page(&slabs[k], &lamp->pages[lamp->count++], error);
-    if (result == RESULT_OK) result = slab_flux(&slabs[k], flux, error);
+    enum result result = make_far_page(lit[p], &lamp->pages[lamp->count++], error);
+    if (result == RESULT_OK) result = slab_flux(lit[p], flux, error);
     if (result != RESULT_OK) return result;
     double weight = flux[0] + flux[1] + flux[2];
     for (int c = 0; c < 3; ++c) {
-      point->center[c] += weight * slabs[k].center[c];
+      point->center[c] += weight * lit[p]->center[c];
       point->flux[c] += flux[c];
     }
     total += weight;
-    point->width = fmax(point->width, plane_width(&slabs[k]));
+    point->width = fmax(point->width, plane_width(lit[p]));
   }
-  point->black_pages = count - lamp->count;
-  if (!lamp->count) return include_no_light(error);
   for (int c = 0; c < 3; ++c) point->center[c] /= total;
   return RESULT_OK;
 }
 
+/* `flux` is that of the image. */
 static enum result finish(struct point *point, const double flux[3], struct error *error) {
+  const struct picture *picture = &point->picture;
+  double fade = 1e-3 * point->width;
   for (int c = 0; c < 3; ++c) {
     if (point->flux[c] > 0 && !(flux[c] > 0))
       return result_fail(error, RESULT_BAD,
                          "its window is too narrow for a lat-long image of %d x %d texels; use "
                          "--mode sheet",
-                         point->picture.width, point->picture.height);
+                         picture->width, picture->height);
     point->intensity[c] = flux[c] > 0 ? point->flux[c] / flux[c] : 0;
-    double fade = 1e-3 * point->width;
-    if (!(point->intensity[c] / (2 * M_PI * fade * fade) <= largest_colour))
-      return result_fail(error, RESULT_BAD,
-                         "it is brighter than POV-Ray's light colours hold (1e37); use a larger "
-                         "radiance unit");
+    enum result result =
+        include_check_colour(point->intensity[c] / (2 * M_PI * fade * fade), -1, error);
+    if (result != RESULT_OK) return result;
   }
-  choose_check(point);
-  const struct picture *picture = &point->picture;
+  choose_check(picture, &point->lamp.check);
   size_t bytes = (size_t)picture->width * (size_t)picture->height * 3 * sizeof *picture->rgb;
-  point->stamp = include_hash(include_hash_start, picture->rgb, bytes);
-  point->stamp = include_hash(point->stamp, point->center, sizeof point->center);
-  point->stamp = include_hash(point->stamp, point->intensity, sizeof point->intensity);
-  point->stamp = include_hash(point->stamp, point->frame.u, sizeof point->frame.u);
-  point->stamp = include_hash(point->stamp, point->frame.v, sizeof point->frame.v);
+  uint64_t hash = include_hash(include_hash_start, picture->rgb, bytes);
+  hash = include_hash(hash, point->center, sizeof point->center);
+  hash = include_hash(hash, point->intensity, sizeof point->intensity);
+  hash = include_hash(hash, point->lamp.frame.u, sizeof point->lamp.frame.u);
+  point->lamp.stamp = include_hash(hash, point->lamp.frame.v, sizeof point->lamp.frame.v);
   return RESULT_OK;
 }
 
 enum result point_make(const struct slab *slabs, int count, double distance, struct point *point,
                        struct error *error) {
   struct far_lamp lamp = {0};
+  const struct slab **lit = NULL;
+  int lit_count = 0;
   double flux[3] = {0, 0, 0};
   memset(point, 0, sizeof *point);
   point->distance = distance;
-  enum result result = gather(slabs, count, &lamp, point, error);
+  enum result result = include_lit_pages(slabs, count, &point->lamp, &lit, &lit_count, error);
+  if (result == RESULT_OK) result = gather(lit, lit_count, &lamp, point, error);
   if (result == RESULT_OK) result = paint(&lamp, point, flux, error);
   if (result == RESULT_OK) result = finish(point, flux, error);
-  if (result == RESULT_OK) measure(slabs, count, &lamp, point);
+  if (result == RESULT_OK) measure(&lamp, point);
   for (int p = 0; p < lamp.count; ++p) slab_free(&lamp.pages[p].views);
   free(lamp.pages);
+  free(lit);
   return result;
 }
 

@@ -9,27 +9,23 @@
 #ifndef POINT_H
 #define POINT_H
 
-#include <stdint.h>
-
 #include "base/picture.h"
 #include "include/text/include_text.h"
-#include "slab/slab.h"
 
 enum { POINT_DISTANCES = 3 };
-extern const double point_distances[POINT_DISTANCES]; /* in aperture widths */
+
+/* In aperture widths, as point.inc.in says. */
+extern const double point_distances[POINT_DISTANCES];
 
 struct point {
-  struct slab frame; /* geometry of the first page with light, without samples or text */
+  struct include_lamp lamp;
   double center[3];
-  double width; /* of the widest aperture */
-  struct picture
-      picture;         /* intensity over its channel's peak; rows downwards, as files have them */
-  double intensity[3]; /* of what the image holds as 1, in lamp units */
-  double flux[3];      /* at Scale 1, in lamp units, of slab and light alike */
-  double error[POINT_DISTANCES], error_at, distance; /* relative RMSE; distance asked for */
-  int black_pages;
-  struct include_check check;
-  uint64_t stamp; /* hash of image and numbers */
+  double width;           /* of the widest aperture */
+  struct picture picture; /* intensity over its channel's peak; rows downwards, as in files */
+  double intensity[3];    /* of what the image holds as 1, in lamp units */
+  double flux[3];         /* at Scale 1, in lamp units, of slab and light alike */
+  double error[POINT_DISTANCES]; /* relative RMSE of the irradiance, of the worst page */
+  double error_at, distance;     /* the same at the distance asked for, in aperture widths */
 };
 
 /* Refuses negative radiance, lamps without light and what POV-Ray's numbers cannot

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { CHECK_SIZE = 3 };
+
 /* Texels, before the size of the image is known to fit. */
 struct extent {
   long long width, height;
@@ -25,7 +27,7 @@ static long long larger(long long x, long long y) {
 /* Pages stand on each other; within a page the finest level lies at the left
  * and the others in a column at its right. The check texels stand on top. */
 static struct extent place_levels(struct sheet *sheet) {
-  struct extent image = {SHEET_CHECK_SIZE, 0};
+  struct extent image = {CHECK_SIZE, 0};
   for (int p = 0; p < sheet->page_count; ++p) {
     struct sheet_page *page = &sheet->pages[p];
     struct extent finest = level_extent(&page->levels[0]);
@@ -39,9 +41,7 @@ static struct extent place_levels(struct sheet *sheet) {
     }
     image.height += larger(finest.height, column);
   }
-  sheet->check_left = 0;
-  sheet->check_bottom = (int)image.height;
-  image.height += SHEET_CHECK_SIZE;
+  image.height += CHECK_SIZE;
   return image;
 }
 
@@ -95,14 +95,16 @@ static uint64_t stamp_of(const struct sheet *sheet) {
  * image that was written together with the include. Both are exact in half. */
 static void paint_check(struct sheet *sheet) {
   struct picture *picture = &sheet->picture;
-  uint64_t hash = sheet->stamp;
-  sheet->check[0] = 0.25f;
-  sheet->check[1] = 0.25f + (float)(hash >> 56) / 1024;
-  sheet->check[2] = 0.25f + (float)(hash >> 48 & 0xff) / 1024;
-  for (int y = 0; y < SHEET_CHECK_SIZE; ++y)
-    for (int x = 0; x < SHEET_CHECK_SIZE; ++x)
-      memcpy(texel(picture, sheet->check_left + x, sheet->check_bottom + y), sheet->check,
-             sizeof sheet->check);
+  struct include_check *check = &sheet->lamp.check;
+  uint64_t hash = sheet->lamp.stamp;
+  const float rgb[3] = {0.25f, 0.25f + (float)(hash >> 56) / 1024,
+                        0.25f + (float)(hash >> 48 & 0xff) / 1024};
+  int bottom = picture->height - CHECK_SIZE;
+  for (int y = 0; y < CHECK_SIZE; ++y)
+    for (int x = 0; x < CHECK_SIZE; ++x) memcpy(texel(picture, x, bottom + y), rgb, sizeof rgb);
+  for (int c = 0; c < 3; ++c) check->rgb[c] = (double)rgb[c];
+  check->at[0] = CHECK_SIZE / 2.0 / picture->width;
+  check->at[1] = (bottom + CHECK_SIZE / 2.0) / picture->height;
 }
 
 enum result sheet_paint(struct sheet *sheet, struct error *error) {
@@ -125,7 +127,7 @@ enum result sheet_paint(struct sheet *sheet, struct error *error) {
       for (int j = 0; j < level->views.samples[SLAB_V]; ++j)
         for (int i = 0; i < level->views.samples[SLAB_U]; ++i) paint_tile(level, i, j, picture);
     }
-  sheet->stamp = stamp_of(sheet);
+  sheet->lamp.stamp = stamp_of(sheet);
   paint_check(sheet);
   return RESULT_OK;
 }

@@ -1,13 +1,12 @@
-/* include_text.h - what the texts of all kinds of include share. The callers check
- * the stream. */
+/* include_text.h - the text of an include: a template of its kind, which names the parts that
+ * all kinds share, filled with what is known of the lamp. */
 #ifndef INCLUDE_TEXT_H
 #define INCLUDE_TEXT_H
 
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 
-#include "slab/slab.h"
+#include "include/text/include_fill.h"
+#include "include/text/include_lamp.h"
 
 /* What an include says besides the light itself. */
 struct include_text {
@@ -20,47 +19,25 @@ struct include_text {
   const char *chosen;   /* why it is of this kind, or NULL; one line */
 };
 
-/* Prints `template` with @ replaced by the lamp's name. */
-void include_named(const char *template, const char *name, FILE *out);
+/* Prints the whole include. A template may name, beside `values`, black_pages and most_width
+ * (of a lamp in the scene), and the parts
+ *   head, usage, units  what it is, how it is used, its units
+ *   begin, end          guard and stamp; the housing's macro. Only the first of two includes of
+ *                       one name declares it; the second finds out whether it is the same lamp
+ *   image               finds the image and reads it into the pigment @_Sheet, with `mapping`,
+ *                       of `values`, in its image_map
+ *   checks              macros: @_Text(X) writes a number for a message, @_Strength(Colour)
+ *                       stops where POV-Ray's numbers cannot hold a lamp whose brightest light
+ *                       has this colour and a fade distance of 1e-3 aperture widths,
+ *                       @_Fits(Width) where it is wider in the scene than most_width
+ *   canned              begins the macro @_Canned(Scale, Gain): declares Size_, a positive
+ *                       number, and Gain_, a vector, or stops
+ * The caller checks the stream. */
+void include_print(const char *template, const struct include_text *text,
+                   const struct include_lamp *lamp, const struct include_value *values, FILE *out);
 
-/* The header's first part. `description` goes on where "light that leaves its aperture."
- * ends; `options` are the variables that may be declared, with @ for the name. */
-void include_head(const struct include_text *text, const char *description, const char *options,
-                  FILE *out);
-void include_units(const struct slab *slab, FILE *out);
-
-/* Guard, stamp and, at the end, the housing's macro. Only the first of two includes of
- * one name declares it; the second finds out whether it is the same lamp. `stamp` is the
- * hash of the lamp's data. */
-void include_begin(const struct include_text *text, uint64_t stamp, FILE *out);
-void include_end(const struct include_text *text, uint64_t stamp, FILE *out);
-
-/* A place of the image whose value the include knows, to see that it is the right
- * image and whether POV-Ray changed its gamma. */
-struct include_check {
-  double at[3];  /* where the pigment shows it */
-  double rgb[3]; /* what the image holds there */
-  int channel;   /* of them the one, between 0 and 1, that tells the gamma */
-};
-
-/* Finds and reads the image into the pigment @_Sheet; `mapping` goes into its
- * image_map. */
-void include_image(const struct include_text *text, const char *mapping,
-                   const struct include_check *check, FILE *out);
-
-/* Macros: @_Text(X) writes a number for a message. @_Strength(Colour) stops where POV-Ray's
- * numbers cannot hold a lamp whose brightest light has this colour and a fade distance of 1e-3
- * aperture widths, @_Fits(Width) where it is wider in the scene than include_most_width. */
-extern const double include_most_width;
-void include_checks(const char *name, FILE *out);
-
-/* Begins the macro @_Canned(Scale, Gain): declares Size_, a positive number, and Gain_, a
- * vector, or stops. */
-void include_canned(const char *name, FILE *out);
-
-/* FNV-1a over 64 bits: the hash of `bytes` after that of what came before; start with
- * include_hash_start. */
-extern const uint64_t include_hash_start;
-uint64_t include_hash(uint64_t before, const void *bytes, size_t count);
+/* Unit vectors along u, v and the normal, and the centre, with `between` between them. */
+void include_put_frame(const struct slab *slab, const double center[3], const char *between,
+                       FILE *out);
 
 #endif

@@ -1,0 +1,71 @@
+/* include_lamp.c - see include_lamp.h. */
+#include "include/text/include_lamp.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+const uint64_t include_hash_start = 14695981039346656037u;
+
+/* POV-Ray takes light colours up to here. */
+static const double largest_colour = 1e37;
+
+double include_peak(const struct slab *slab) {
+  double peak = 0;
+  size_t values = 3 * slab_sample_count(slab);
+  for (size_t k = 0; k < values; ++k) peak = fmax(peak, slab->rgb[k]);
+  return peak;
+}
+
+static enum result check_radiance(const struct slab *slab, int page, struct error *error) {
+  size_t values = 3 * slab_sample_count(slab), k = 0;
+  int at[SLAB_AXES];
+  while (k < values && !(slab->rgb[k] < 0)) ++k;
+  if (k == values) return RESULT_OK;
+  slab_locate(slab, k / 3, at);
+  return result_fail(error, RESULT_BAD,
+                     "page %d: radiance %g of sample (%d, %d, %d, %d) is negative, which a filter "
+                     "before a light cannot show; give include a slab without negative light",
+                     page + 1, (double)slab->rgb[k], at[SLAB_U], at[SLAB_V], at[SLAB_S],
+                     at[SLAB_T]);
+}
+
+struct slab include_frame(const struct slab *slab) {
+  struct slab frame = *slab;
+  frame.rgb = NULL;
+  frame.json = NULL;
+  return frame;
+}
+
+enum result include_lit_pages(const struct slab *slabs, int count, struct include_lamp *lamp,
+                              const struct slab ***lit, int *lit_count, struct error *error) {
+  *lit_count = 0;
+  *lit = calloc((size_t)count, sizeof **lit);
+  if (!*lit) return result_fail(error, RESULT_MEMORY, "out of memory");
+  for (int k = 0; k < count; ++k) {
+    enum result result = check_radiance(&slabs[k], k, error);
+    if (result != RESULT_OK) return result;
+    if (include_peak(&slabs[k]) > 0) (*lit)[(*lit_count)++] = &slabs[k];
+  }
+  if (!*lit_count)
+    return result_fail(error, RESULT_BAD, "all radiance is zero: the lamp gives no light");
+  lamp->frame = include_frame((*lit)[0]);
+  lamp->black_pages = count - *lit_count;
+  return RESULT_OK;
+}
+
+enum result include_check_colour(double colour, int page, struct error *error) {
+  char where[32] = "";
+  if (colour <= largest_colour) return RESULT_OK;
+  if (page >= 0) snprintf(where, sizeof where, "page %d: ", page + 1);
+  return result_fail(error, RESULT_BAD,
+                     "%sit is brighter than POV-Ray's light colours hold (%g); use a larger "
+                     "radiance unit",
+                     where, largest_colour);
+}
+
+uint64_t include_hash(uint64_t hash, const void *bytes, size_t count) {
+  const unsigned char *byte = bytes;
+  for (size_t k = 0; k < count; ++k) hash = (hash ^ byte[k]) * 1099511628211u;
+  return hash;
+}
