@@ -13,7 +13,7 @@ define embed
 endef
 
 BAKE_OBJECTS += $(B)/bakeslab/include/templates.o
-$(B)/bakeslab/include/templates.c: $(sort $(wildcard bakeslab/include/*/*.inc.in)) bakeslab/base/embed.sh
+$(B)/bakeslab/include/templates.c: $(sort $(wildcard bakeslab/include/*/*.inc.in)) bakeslab/base/embed.sh | $(SETUP_FIRST)
 	$(call embed)
 
 $(B)/libslab.a: $(SLAB_OBJECTS)

@@ -4,7 +4,7 @@ RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c)) $(patsubst %
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
 
 RENDER_OBJECTS += $(B)/render/gl/gl_shaders.o
-$(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) bakeslab/base/embed.sh
+$(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) bakeslab/base/embed.sh | $(SETUP_FIRST)
 	$(call embed,gl_)
 
 $(B)/librender.a: $(RENDER_OBJECTS)

@@ -6,7 +6,7 @@ prefix=$1
 shift
 for file; do
   name=$(basename "${file%.*}" | tr . _)
-  echo "const char $prefix$name[] ="
+  echo "const char $prefix${name}[] ="
   sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' "$file"
   echo ';'
 done

@@ -49,9 +49,9 @@ struct arguments {
   const char *slab;
   const char *output;
   const char *name;
-  int modes; /* that may be made; 0: the default */
-  int lights;
-  double tolerance, distance; /* 0: not given */
+  int modes;                  /* that may be made */
+  int lights;                 /* 0: not given */
+  double tolerance, distance; /* 0: no tolerance given */
 };
 
 enum { KEY_TOLERANCE = 256, KEY_DISTANCE };
@@ -77,24 +77,27 @@ static const struct value values[] = {{'o', VALUE_TEXT, ARGUMENT(output), 0, 0},
                                       {'n', VALUE_TEXT, ARGUMENT(name), 0, 0},
                                       {0}};
 
-static const struct {
-  const char *name;
-  int modes;
-} mode_names[] = {{"sheet", INCLUDE_SHEET},
-                  {"cluster", INCLUDE_CLUSTER},
-                  {"point", INCLUDE_POINT},
-                  {"auto", INCLUDE_ANY}};
+static const char *const mode_names[] = {[INCLUDE_SHEET] = "sheet",
+                                         [INCLUDE_CLUSTER] = "cluster",
+                                         [INCLUDE_POINT] = "point",
+                                         [INCLUDE_ANY] = "auto"};
 
 static int parse_mode(const char *value, struct argp_state *state) {
-  for (size_t k = 0; k < sizeof mode_names / sizeof *mode_names; ++k)
-    if (!strcmp(value, mode_names[k].name)) return mode_names[k].modes;
+  for (int mode = 0; mode <= INCLUDE_ANY; ++mode)
+    if (mode_names[mode] && !strcmp(value, mode_names[mode])) return mode;
   argp_error(state, "--mode %s: must be sheet, cluster, point or auto", value);
   return 0;
 }
 
 /* Options that contradict each other. */
 static void check_arguments(const struct arguments *arguments, struct argp_state *state) {
-  if (!arguments->output) argp_error(state, "no output given; add -o LAMP.inc");
+  const char *output = arguments->output ? arguments->output : "";
+  if (!*output) argp_error(state, "no output given; add -o LAMP.inc");
+  for (const char *c = output; *c; ++c)
+    if (iscntrl((unsigned char)*c))
+      argp_error(state, "%s: the output's name must not have control characters", output);
+  if (strlen(output) < 5 || strcmp(output + strlen(output) - 4, ".inc"))
+    argp_error(state, "%s: the output must end in .inc; its image gets .exr", output);
   if (arguments->lights > 0 && arguments->tolerance > 0)
     argp_error(state, "--lights and --tolerance: give one of them");
   if (arguments->modes == INCLUDE_ANY && !(arguments->tolerance > 0))
@@ -118,41 +121,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
   }
 }
 
-/* The lamp's name in POV-Ray: the slab's, unless --name gives another. */
-static enum result choose_name(const char *given, const struct slab *slab,
-                               char name[SDL_IDENTIFIER_SIZE], struct error *error) {
-  enum result result = sdl_capitalise(given ? given : slab->name, name, error);
-  if (result == RESULT_OK) return result;
-  struct error reason = *error;
-  return result_fail(error, result, "%s; give one with --name", reason.text);
-}
-
-static const char *base_name(const char *path) {
-  const char *slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
-}
-
-/* "LAMP.exr" for "LAMP.inc", allocated; NULL without memory. */
-static char *image_path(const char *include) {
-  char *path = strdup(include);
-  if (path) memcpy(path + strlen(path) - 4, ".exr", 4);
-  return path;
-}
-
 /* The image of the include; NULL where it has none. */
 static const struct picture *picture_of(const struct include_choice *choice) {
   if (choice->mode == INCLUDE_CLUSTER) return NULL;
   return choice->mode == INCLUDE_POINT ? &choice->point.picture : &choice->sheet.picture;
-}
-
-static void print_include(const struct include_choice *choice, const struct include_text *text,
-                          FILE *out) {
-  if (choice->mode == INCLUDE_CLUSTER)
-    cluster_print(&choice->cluster, text, out);
-  else if (choice->mode == INCLUDE_POINT)
-    point_print(&choice->point, text, out);
-  else
-    sheet_print(&choice->sheet, text, out);
 }
 
 static enum result compose(const struct include_choice *choice, const struct include_text *text,
@@ -160,11 +132,16 @@ static enum result compose(const struct include_choice *choice, const struct inc
   char *content = NULL;
   size_t size = 0;
   FILE *stream = open_memstream(&content, &size);
-  if (!stream) return result_fail(error, RESULT_MEMORY, "out of memory");
-  print_include(choice, text, stream);
+  if (!stream) return result_no_memory(error);
+  if (choice->mode == INCLUDE_CLUSTER)
+    cluster_print(&choice->cluster, text, stream);
+  else if (choice->mode == INCLUDE_POINT)
+    point_print(&choice->point, text, stream);
+  else
+    sheet_print(&choice->sheet, text, stream);
   enum result result = RESULT_OK;
   if (fclose(stream) != 0 || !content) /* glibc's fclose may lose the text without a word */
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+    result = result_no_memory(error);
   else if (output_write(output, content, size, 0) != 0)
     result = result_fail(error, RESULT_IO, "%s: cannot be written: %m", output->target);
   free(content);
@@ -189,21 +166,24 @@ static enum result write_files(const struct include_choice *choice, const struct
   return result;
 }
 
-/* Prefixes the message with the slab's path. */
-static enum result blame(const char *path, enum result result, struct error *error) {
+/* The lamp's name in POV-Ray, the slab's unless --name gives another, and its lights. */
+static enum result make_lights(const struct arguments *arguments, const struct slab *slabs,
+                               int count, char name[SDL_IDENTIFIER_SIZE],
+                               struct include_choice *choice, struct error *error) {
+  const char *given = arguments->name ? arguments->name : slabs[0].name, *advice = "";
+  int modes = arguments->modes, lights = arguments->lights;
+  double distance = arguments->distance;
+  if (modes == INCLUDE_CLUSTER && !lights) lights = DEFAULT_CLUSTER;
+  enum result result = sdl_capitalise(given, name, error);
+  if (result != RESULT_OK)
+    advice = "; give one with --name";
+  else if (arguments->tolerance > 0)
+    result = include_choose(slabs, count, modes, arguments->tolerance, distance, choice, error);
+  else
+    result = include_make(slabs, count, (enum include_mode)modes, lights, distance, choice, error);
   if (result == RESULT_OK) return result;
   struct error reason = *error;
-  return result_fail(error, result, "%s: %s", path, reason.text);
-}
-
-static enum result make_lights(const struct arguments *arguments, const struct slab *slabs,
-                               int count, struct include_choice *choice, struct error *error) {
-  int modes = arguments->modes ? arguments->modes : INCLUDE_SHEET, lights = arguments->lights;
-  double distance = arguments->distance > 0 ? arguments->distance : default_distance;
-  if (arguments->tolerance > 0)
-    return include_choose(slabs, count, modes, arguments->tolerance, distance, choice, error);
-  if (modes == INCLUDE_CLUSTER && !lights) lights = DEFAULT_CLUSTER;
-  return include_make(slabs, count, (enum include_mode)modes, lights, distance, choice, error);
+  return result_fail(error, result, "%s: %s%s", arguments->slab, reason.text, advice);
 }
 
 /* Says what was chosen and what is left out, and writes. */
@@ -222,8 +202,8 @@ static enum result write_include(const struct arguments *arguments, const struct
              "braces that do not match)",
              arguments->slab);
   struct include_text text = {.name = name,
-                              .file = base_name(arguments->output),
-                              .image = picture_of(choice) ? base_name(image) : NULL,
+                              .file = basename(arguments->output),
+                              .image = picture_of(choice) ? basename(image) : NULL,
                               .command = cli_command_line(),
                               .housing = harmless ? housing : NULL,
                               .housing_left_out = housing && !harmless,
@@ -237,20 +217,18 @@ static enum result include_slab(const struct arguments *arguments, struct error 
   struct slab *slabs = NULL;
   int count = 0;
   struct include_choice choice = {0};
-  char name[SDL_IDENTIFIER_SIZE];
-  char *image = image_path(arguments->output);
+  char name[SDL_IDENTIFIER_SIZE], *image = strdup(arguments->output);
   enum result result = RESULT_OK;
-  if (!image) result = result_fail(error, RESULT_MEMORY, "out of memory");
+  if (image)
+    memcpy(image + strlen(image) - 4, ".exr", 4);
+  else
+    result = result_no_memory(error);
   if (result == RESULT_OK) {
     const char *outputs[2] = {arguments->output, image};
     result = output_check(outputs, 2, &arguments->slab, 1, error);
   }
   if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
-  if (result == RESULT_OK) {
-    result = choose_name(arguments->name, &slabs[0], name, error);
-    if (result == RESULT_OK) result = make_lights(arguments, slabs, count, &choice, error);
-    result = blame(arguments->slab, result, error);
-  }
+  if (result == RESULT_OK) result = make_lights(arguments, slabs, count, name, &choice, error);
   if (result == RESULT_OK)
     result = write_include(arguments, &slabs[0], name, &choice, image, error);
   free(image);
@@ -260,23 +238,13 @@ static enum result include_slab(const struct arguments *arguments, struct error 
 }
 
 int cmd_include(int argc, char **argv) {
-  struct arguments arguments = {0};
+  struct arguments arguments = {.modes = INCLUDE_SHEET, .distance = default_distance};
   static const struct argp argp = {.options = options,
                                    .parser = parse_option,
                                    .args_doc = "SLAB -o LAMP.inc",
                                    .doc = help_text,
                                    .children = cli_options};
   cli_parse(&argp, argc, argv, &arguments);
-  size_t length = strlen(arguments.output);
-  for (const char *c = arguments.output; *c; ++c)
-    if (iscntrl((unsigned char)*c)) {
-      cli_complain("%s: the output's name must not have control characters", arguments.output);
-      return CLI_USAGE;
-    }
-  if (length < 5 || strcmp(arguments.output + length - 4, ".inc")) {
-    cli_complain("%s: the output must end in .inc; its image gets .exr", arguments.output);
-    return CLI_USAGE;
-  }
   struct error error;
   if (include_slab(&arguments, &error) != RESULT_OK) return cli_fail(&error);
   return CLI_OK;

@@ -70,11 +70,6 @@ static double stagger(int index) {
   return place - floor(place);
 }
 
-void plane_receiver(const struct plane *plane, int column, int row, double at[2]) {
-  at[0] = plane->low[0] + (column + stagger(row)) / plane->receivers * plane->size[0];
-  at[1] = plane->low[1] + (row + stagger(column)) / plane->receivers * plane->size[1];
-}
-
 /* Angle at which the lit part begins along an axis, and how far it reaches. */
 static void fan_angles(const struct plane *plane, int axis, double *low, double *reach) {
   *low = atan(plane->low[axis] / plane->distance);
@@ -110,7 +105,8 @@ void plane_errors(const struct slab *slab, double distance, double margin,
   for (int k = 0; k < count; ++k) errors[k] = 0;
   for (int row = 0; row < plane.receivers; ++row)
     for (int column = 0; column < plane.receivers; ++column) {
-      plane_receiver(&plane, column, row, at);
+      at[0] = plane.low[0] + (column + stagger(row)) / plane.receivers * plane.size[0];
+      at[1] = plane.low[1] + (row + stagger(column)) / plane.receivers * plane.size[1];
       plane_irradiance(slab, plane.points, at, distance, exact);
       for (int c = 0; c < 3; ++c) all += exact[c] * exact[c];
       for (int k = 0; k < count; ++k) {

@@ -20,8 +20,6 @@ struct plane {
  * work, a fraction of a second, and is at most `most` (0: the default). */
 struct plane plane_make(const struct slab *slab, double distance, double margin, int most);
 
-void plane_receiver(const struct plane *plane, int column, int row, double at[2]);
-
 /* The same number of receivers at equal angles as seen from the aperture's middle, closer
  * together where light is bright; (column, row) count cells, the first's middle is (0.5, 0.5).
  * Returns the area of the plane that a cell stands for there. */

@@ -52,12 +52,6 @@ int cluster_page_points(const struct cluster_page *page) {
   return points;
 }
 
-double cluster_worst_error(const struct cluster *cluster) {
-  double worst = 0;
-  for (int p = 0; p < cluster->page_count; ++p) worst = fmax(worst, cluster->pages[p].error_at);
-  return worst;
-}
-
 /* One page on the way: what it is fitted to. */
 struct work {
   const struct slab *slab;
@@ -108,8 +102,6 @@ static enum result grow(const struct work *work, int lights, double tolerance,
                         struct cluster_page *page, struct error *error) {
   int most = lights > 0 ? lights : CLUSTER_MOST_LIGHTS;
   struct cluster_page now = {.count = 0};
-  now.lights = calloc((size_t)most, sizeof *now.lights);
-  if (!now.lights) return result_fail(error, RESULT_MEMORY, "out of memory");
   enum result result = RESULT_OK;
   page->error_at = INFINITY;
   for (int wanted = 1, idle = 0; result == RESULT_OK;
@@ -119,7 +111,7 @@ static enum result grow(const struct work *work, int lights, double tolerance,
     double reached = cluster_error(&work->gauge, now.lights, now.count, work->target.unit);
     idle = reached < least_help * page->error_at ? 0 : idle + 1;
     if (reached < page->error_at) {
-      memcpy(page->lights, now.lights, (size_t)now.count * sizeof *now.lights);
+      memcpy(page->lights, now.lights, sizeof now.lights);
       page->count = now.count;
       page->error_at = reached;
     }
@@ -127,17 +119,13 @@ static enum result grow(const struct work *work, int lights, double tolerance,
     if (lights > 0) continue;
     if (reached <= tolerance || (idle >= 2 && reached > 2 * tolerance)) break;
   }
-  free(now.lights);
   return result;
 }
 
 static enum result make_page(const struct slab *slab, int number, int lights, double tolerance,
                              double distance, struct cluster_page *page, struct error *error) {
   struct work work = {.slab = slab};
-  page->lights = calloc((size_t)CLUSTER_MOST_LIGHTS, sizeof *page->lights);
-  enum result result =
-      page->lights ? RESULT_OK : result_fail(error, RESULT_MEMORY, "out of memory");
-  if (result == RESULT_OK) result = cluster_target_make(slab, distance, &work.target, error);
+  enum result result = cluster_target_make(slab, distance, &work.target, error);
   if (result == RESULT_OK) result = cluster_gauge_make(slab, distance, &work.gauge, error);
   if (result == RESULT_OK)
     result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
@@ -201,7 +189,7 @@ static enum result make_pages(const struct slab *const *lit, int count, struct c
                               struct error *error) {
   enum result result = RESULT_OK;
   cluster->pages = calloc((size_t)count, sizeof *cluster->pages);
-  if (!cluster->pages) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!cluster->pages) return result_no_memory(error);
   cluster->page_count = count;
   for (int p = 0; p < count && result == RESULT_OK; ++p) {
     cluster->pages[p].frame = include_frame(lit[p]);
@@ -229,7 +217,6 @@ enum result cluster_make(const struct slab *slabs, int count, int lights, double
 }
 
 void cluster_free(struct cluster *cluster) {
-  for (int p = 0; p < cluster->page_count; ++p) free(cluster->pages[p].lights);
   free(cluster->pages);
   memset(cluster, 0, sizeof *cluster);
 }

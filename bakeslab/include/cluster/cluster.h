@@ -12,8 +12,8 @@ enum { CLUSTER_MOST_PAGES = 64, CLUSTER_DISTANCES = 3 };
 extern const double cluster_distances[CLUSTER_DISTANCES];
 
 struct cluster_page {
-  struct slab frame;            /* geometry of the page, without samples or text */
-  struct cluster_light *lights; /* owned */
+  struct slab frame; /* geometry of the page, without samples or text */
+  struct cluster_light lights[CLUSTER_MOST_LIGHTS];
   int count;
   double flux[3];                  /* at Scale 1, in lamp units, of slab and lights alike */
   double error[CLUSTER_DISTANCES]; /* relative RMSE of the irradiance */
@@ -38,8 +38,7 @@ enum result cluster_make(const struct slab *slabs, int count, int lights, double
 void cluster_free(struct cluster *cluster);
 
 int cluster_light_count(const struct cluster *cluster);
-int cluster_page_points(const struct cluster_page *page);  /* of its lights */
-double cluster_worst_error(const struct cluster *cluster); /* at its distance, of a page */
+int cluster_page_points(const struct cluster_page *page); /* of its lights */
 
 /* cluster_text.c: the include file. The caller checks the stream. */
 void cluster_print(const struct cluster *cluster, const struct include_text *text, FILE *out);

@@ -257,7 +257,7 @@ enum result cluster_fit(const struct cluster_target *target, struct cluster_ligh
     *count = cluster_drop_dark(lights, *count);
     correct_flux(target, lights, *count);
   } else {
-    result = result_fail(error, RESULT_MEMORY, "out of memory");
+    result = result_no_memory(error);
   }
   release(&f);
   return result;

@@ -8,10 +8,10 @@
 
 struct growth {
   int rows, candidate_count;
-  double *tables;                 /* candidates x rows; owned, as all below */
-  double *base;                   /* rows x lights */
-  bool *taken;                    /* of the candidates */
-  struct cluster_colours colours; /* its rest is owned */
+  double *tables;    /* candidates x rows; owned, as all below */
+  double *base;      /* rows x lights */
+  double (*rest)[3]; /* of each row */
+  bool *taken;       /* of the candidates */
 };
 
 static bool allocate(struct growth *g, int wanted) {
@@ -19,8 +19,8 @@ static bool allocate(struct growth *g, int wanted) {
   g->tables = calloc(rows * candidates, sizeof *g->tables);
   g->base = calloc(rows * (size_t)wanted, sizeof *g->base);
   g->taken = calloc(candidates, sizeof *g->taken);
-  g->colours.rest = calloc(rows, sizeof *g->colours.rest);
-  return g->tables && g->base && g->taken && g->colours.rest;
+  g->rest = calloc(rows, sizeof *g->rest);
+  return g->tables && g->base && g->taken && g->rest;
 }
 
 /* The candidate that takes most of what is left; -1 where none takes anything. */
@@ -32,7 +32,7 @@ static int best_candidate(const struct growth *g) {
     double size = 0, along[3] = {0}, gain = 0;
     for (int r = 0; r < g->rows && !g->taken[k]; ++r) {
       size += table[r] * table[r];
-      for (int c = 0; c < 3; ++c) along[c] += table[r] * g->colours.rest[r][c];
+      for (int c = 0; c < 3; ++c) along[c] += table[r] * g->rest[r][c];
     }
     for (int c = 0; c < 3; ++c) gain += along[c] > 0 ? along[c] * along[c] : 0;
     if (!(size > 0) || gain / size <= most) continue;
@@ -47,21 +47,27 @@ enum result cluster_grow(const struct cluster_target *target,
                          struct cluster_light *lights, int *count, int wanted,
                          struct error *error) {
   struct growth g = {.rows = target->count + 1, .candidate_count = candidate_count};
+  struct cluster_colours colours;
   enum result result = RESULT_OK;
-  if (!allocate(&g, wanted)) result = result_fail(error, RESULT_MEMORY, "out of memory");
-  for (int k = 0; k < candidate_count && result == RESULT_OK; ++k)
+  if (!allocate(&g, wanted)) {
+    result = result_no_memory(error);
+    goto out;
+  }
+  for (int k = 0; k < candidate_count; ++k)
     cluster_rows(target, &candidates[k], g.tables + (size_t)k * (size_t)g.rows, 1);
-  while (*count < wanted && result == RESULT_OK) {
+  colours.rest = g.rest;
+  while (*count < wanted) {
     for (int k = 0; k < *count; ++k) cluster_rows(target, &lights[k], g.base + k, *count);
-    cluster_solve(target, *count, g.base, &g.colours);
+    cluster_solve(target, *count, g.base, &colours);
     int best = best_candidate(&g);
     if (best < 0) break;
     g.taken[best] = true;
     lights[(*count)++] = candidates[best];
   }
+out:
   free(g.tables);
   free(g.base);
   free(g.taken);
-  free(g.colours.rest);
+  free(g.rest);
   return result;
 }

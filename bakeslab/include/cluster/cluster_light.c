@@ -16,35 +16,18 @@ static double lobe(const struct cluster_light *light, double cosine) {
   return value * p * p * (3 - 2 * p);
 }
 
-/* A receiver as a point of the light sees it, (p, q) edges away from the middle. */
-struct sight {
-  double x[2], r2, r, cosine; /* `cosine` to the lobe's axis, whose length is `size` */
-};
-
-static struct sight sight_of(const struct cluster_light *light, double size, double p, double q,
-                             const double at[3]) {
-  struct sight sight;
-  for (int c = 0; c < 2; ++c)
-    sight.x[c] = at[c] - light->center[c] - p * light->edge[0][c] - q * light->edge[1][c];
-  sight.r2 = sight.x[0] * sight.x[0] + sight.x[1] * sight.x[1] + at[2] * at[2];
-  sight.r = sqrt(sight.r2);
-  sight.cosine =
-      (sight.x[0] * light->axis[0] + sight.x[1] * light->axis[1] + at[2]) / (sight.r * size);
-  return sight;
-}
-
-static double axis_size(const struct cluster_light *light) {
-  return sqrt(1 + light->axis[0] * light->axis[0] + light->axis[1] * light->axis[1]);
-}
-
 double cluster_irradiance(const struct cluster_light *light, const double at[3]) {
-  double sum = 0, size = axis_size(light);
+  const double *axis = light->axis;
+  double sum = 0, size = sqrt(1 + axis[0] * axis[0] + axis[1] * axis[1]);
   int nu = light->size[0], nv = light->size[1];
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i) {
-      struct sight sight = sight_of(light, size, (i + 0.5) / nu - 0.5, (j + 0.5) / nv - 0.5, at);
-      if (sight.cosine > light->cos_falloff)
-        sum += lobe(light, sight.cosine) * at[2] / (sight.r2 * sight.r);
+      double p = (i + 0.5) / nu - 0.5, q = (j + 0.5) / nv - 0.5;
+      double x = at[0] - light->center[0] - p * light->edge[0][0] - q * light->edge[1][0];
+      double y = at[1] - light->center[1] - p * light->edge[0][1] - q * light->edge[1][1];
+      double r2 = x * x + y * y + at[2] * at[2], r = sqrt(r2);
+      double cosine = (x * axis[0] + y * axis[1] + at[2]) / (r * size);
+      if (cosine > light->cos_falloff) sum += lobe(light, cosine) * at[2] / (r2 * r);
     }
   return sum / (nu * nv);
 }
@@ -77,12 +60,15 @@ static struct lobe_gradient lobe_gradient(const struct cluster_light *light, dou
                                 .by_softness = -steep * p * room / edge};
 }
 
-static void add_point(const struct cluster_light *light, double size, double p, double q,
-                      const double at[3], struct cluster_numbers *gradient) {
+/* Adds the derivatives of one point's irradiance, (p, q) edges away from the middle. */
+static void add_point(const struct cluster_light *light, double p, double q, const double at[3],
+                      struct cluster_numbers *gradient) {
   const double *axis = light->axis;
-  const struct sight sight = sight_of(light, size, p, q, at);
-  const double *x = sight.x, r = sight.r, r2 = sight.r2, c = sight.cosine;
-  double facing = at[2] / (r2 * r), by_place[2];
+  double size = sqrt(1 + axis[0] * axis[0] + axis[1] * axis[1]), by_place[2];
+  double x[2] = {at[0] - light->center[0] - p * light->edge[0][0] - q * light->edge[1][0],
+                 at[1] - light->center[1] - p * light->edge[0][1] - q * light->edge[1][1]};
+  double r2 = x[0] * x[0] + x[1] * x[1] + at[2] * at[2], r = sqrt(r2);
+  double c = (x[0] * axis[0] + x[1] * axis[1] + at[2]) / (r * size), facing = at[2] / (r2 * r);
   if (c <= light->cos_falloff) return;
   struct lobe_gradient lobe = lobe_gradient(light, c);
   for (int k = 0; k < 2; ++k) {
@@ -103,10 +89,9 @@ static void add_point(const struct cluster_light *light, double size, double p, 
 struct cluster_numbers cluster_gradient(const struct cluster_light *light, const double at[3]) {
   struct cluster_numbers gradient = {0};
   int nu = light->size[0], nv = light->size[1];
-  double size = axis_size(light);
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i)
-      add_point(light, size, (i + 0.5) / nu - 0.5, (j + 0.5) / nv - 0.5, at, &gradient);
+      add_point(light, (i + 0.5) / nu - 0.5, (j + 0.5) / nv - 0.5, at, &gradient);
   for (int n = 0; n < CLUSTER_NUMBERS; ++n) gradient.x[n] /= nu * nv;
   return gradient;
 }

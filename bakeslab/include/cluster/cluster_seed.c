@@ -1,9 +1,10 @@
-/* cluster_seed.c - groups of 4D cells of like energy, and a light for each.
+/* cluster_seed.c - groups of the slab's 4D cells, and lights for each.
  *
  * A cell is a point (a, b, D s, D t) with its energy as weight: what lies close
  * there lights the same part of a plane at the distance D. Groups are halved
  * across their longest axis, the one with the largest moment first, then
- * relaxed by Lloyd's iteration. */
+ * relaxed by Lloyd's iteration ("Least squares quantization in PCM", 1982). A light covers the
+ * smallest parallelogram around its group's uv samples. */
 #include "include/cluster/cluster_seed.h"
 
 #include <math.h>
@@ -20,7 +21,7 @@ enum { MOST_UV = 8, MOST_ST = 24, LLOYD_STEPS = 12, POWER_STEPS = 20 };
 enum { WIDTHS = 3, MOST_CANDIDATES = 2 * CLUSTER_MOST_LIGHTS * WIDTHS + 8 };
 static const double widths[WIDTHS] = {0.7, 1, 1.5};
 
-/* Of a candidate, on its own. */
+/* Most points of a candidate, on its own. */
 enum { CANDIDATE_POINTS = 16 };
 
 /* Share of a group's energy that its parallelogram may leave out. */
@@ -43,13 +44,14 @@ struct cell_list {
 
 struct moments {
   double energy, mean[4], covariance[4][4];
+  double spread; /* the covariance's trace */
 };
 
 static enum result list_cells(const struct slab *slab, struct cell_list *list,
                               struct error *error) {
   double width = plane_width(slab), kappa = slab_kappa(slab);
   list->cells = calloc(slab_sample_count(slab), sizeof *list->cells);
-  if (!list->cells) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!list->cells) return result_no_memory(error);
   for (size_t pixel = 0; pixel < slab_sample_count(slab); ++pixel) {
     int at[SLAB_AXES];
     slab_locate(slab, pixel, at);
@@ -85,6 +87,7 @@ static struct moments group_moments(const struct cell_list *list, int group) {
       for (int j = 0; j < 4; ++j)
         m.covariance[i][j] += cell->energy * (cell->x[i] - m.mean[i]) * (cell->x[j] - m.mean[j]);
   }
+  for (int i = 0; i < 4; ++i) m.spread += m.covariance[i][i];
   return m;
 }
 
@@ -104,10 +107,6 @@ static void longest_axis(const struct moments *m, double axis[4]) {
   }
 }
 
-static double spread_of(const struct moments *m) {
-  return m->covariance[0][0] + m->covariance[1][1] + m->covariance[2][2] + m->covariance[3][3];
-}
-
 /* Halves the group with the largest moment until there are `wanted`. */
 static int split_groups(struct cell_list *list, int wanted) {
   struct moments groups[CLUSTER_MOST_LIGHTS];
@@ -116,9 +115,9 @@ static int split_groups(struct cell_list *list, int wanted) {
   while (count < wanted) {
     int widest = 0;
     for (int k = 1; k < count; ++k)
-      if (spread_of(&groups[k]) > spread_of(&groups[widest])) widest = k;
+      if (groups[k].spread > groups[widest].spread) widest = k;
     const struct moments *m = &groups[widest];
-    if (!(spread_of(m) > 1e-12 * groups[0].energy)) break;
+    if (!(m->spread > 1e-12 * groups[0].energy)) break;
     double axis[4];
     longest_axis(m, axis);
     for (int k = 0; k < list->count; ++k) {
@@ -282,7 +281,7 @@ enum result cluster_seed(const struct slab *slab, double distance,
   }
   *count = 0;
   *candidates = calloc(MOST_CANDIDATES, sizeof **candidates);
-  enum result result = *candidates ? RESULT_OK : result_fail(error, RESULT_MEMORY, "out of memory");
+  enum result result = *candidates ? RESULT_OK : result_no_memory(error);
   if (result == RESULT_OK) result = slab_resample(slab, samples, &coarse, error);
   if (result == RESULT_OK) result = list_cells(&coarse, &list, error);
   for (int groups = 1; groups <= CLUSTER_MOST_LIGHTS && result == RESULT_OK; groups *= 2)

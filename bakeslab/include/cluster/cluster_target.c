@@ -56,8 +56,7 @@ static enum result make_room(int count, struct cluster_target *target, struct er
   target->at = calloc(room, sizeof *target->at);
   target->rgb = calloc(room, sizeof *target->rgb);
   target->weight = calloc(room, sizeof *target->weight);
-  if (!target->at || !target->rgb || !target->weight)
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!target->at || !target->rgb || !target->weight) return result_no_memory(error);
   return RESULT_OK;
 }
 

@@ -31,7 +31,7 @@ static void print_pages(const void *of, FILE *out) {
         {"percent", .numbers = percent},
         {"coarse", .number = page->error_at > coarse ? 100 * page->error_at : 0},
         {"distance", .number = cluster->distance},
-        {NULL}};
+        {0}};
     if (p) putc('\n', out);
     include_fill(cluster_page_inc, "", values, out);
   }
@@ -110,6 +110,6 @@ void cluster_print(const struct cluster *cluster, const struct include_text *tex
       {"lobe_rows", .print = print_rows, .of = &(struct rows){cluster, print_lobe}},
       {"colour_rows", .print = print_rows, .of = &(struct rows){cluster, print_colour}},
       {"least_width", .number = least_width},
-      {NULL}};
+      {0}};
   include_print(cluster_inc, text, &cluster->lamp, values, out);
 }

@@ -28,9 +28,10 @@ static const double margin = 1.1;
  * that all see the same slopes. */
 struct far_page {
   const struct slab *slab;
-  struct slab views; /* owned */
-  double u[3], v[3]; /* unit */
-  double shift[3];   /* of its centre from the lamp's, along u, v and normal */
+  struct slab views;         /* owned */
+  double u[3], v[3];         /* unit */
+  double shift[3];           /* of its centre from the lamp's, along u, v and normal */
+  const struct point *image; /* of the lamp, if this is its only page, or NULL */
 };
 
 struct far_lamp {
@@ -172,52 +173,42 @@ static void look_up(const struct point *point, const double direction[3], double
   }
 }
 
-/* What the errors of a page are told of. */
-struct far_light {
-  const struct point *point;
-  const struct far_lamp *lamp;
-  const struct far_page *far;
-};
-
-/* Irradiance of the far field on a receiver before a page: of the page's own light, or, where
- * it is the only one, of the image. */
+/* Irradiance of the far field on a receiver before a page: of the image, or of the page's own
+ * light. */
 static void far_irradiance(const void *of, int number, const double at[3], double rgb[3]) {
   (void)number;
-  const struct far_light *light = of;
-  const struct far_page *far = light->far;
+  const struct far_page *far = of;
   double along[3], direction[3];
   for (int c = 0; c < 3; ++c) along[c] = at[c] + far->shift[c];
   double r2 = dot(along, along), r = sqrt(r2);
   for (int c = 0; c < 3; ++c) along[c] /= r;
   to_lamp(far, along, direction);
   rgb[0] = rgb[1] = rgb[2] = 0;
-  if (light->lamp->count == 1)
-    look_up(light->point, along, rgb);
+  if (far->image)
+    look_up(far->image, along, rgb);
   else
     add_intensity(far, direction, rgb);
   for (int c = 0; c < 3; ++c) rgb[c] *= along[2] / r2;
 }
 
 /* Makes `*worst` at least the error before a page, at a distance in aperture widths. */
-static void measure_at(const struct far_light *light, double distance, double *worst) {
-  const struct slab *slab = light->far->slab;
-  double error;
-  plane_errors(slab, distance * plane_width(slab), margin, far_irradiance, light, 1, &error);
+static void measure_at(const struct far_page *far, double distance, double *worst) {
+  double error, away = distance * plane_width(far->slab);
+  plane_errors(far->slab, away, margin, far_irradiance, far, 1, &error);
   *worst = fmax(*worst, error);
 }
 
 static void measure(const struct far_lamp *lamp, struct point *point) {
   for (int p = 0; p < lamp->count; ++p) {
     struct far_page *far = &lamp->pages[p];
-    const struct far_light light = {point, lamp, far};
     double from[3];
     for (int c = 0; c < 3; ++c) from[c] = far->slab->center[c] - point->center[c];
     far->shift[0] = dot(from, far->u);
     far->shift[1] = dot(from, far->v);
     far->shift[2] = dot(from, far->slab->normal);
-    for (int d = 0; d < POINT_DISTANCES; ++d)
-      measure_at(&light, point_distances[d], &point->error[d]);
-    measure_at(&light, point->distance, &point->error_at);
+    far->image = lamp->count == 1 ? point : NULL;
+    for (int d = 0; d < POINT_DISTANCES; ++d) measure_at(far, point_distances[d], &point->error[d]);
+    measure_at(far, point->distance, &point->error_at);
   }
 }
 
@@ -226,7 +217,7 @@ static enum result gather(const struct slab *const *lit, int count, struct far_l
                           struct point *point, struct error *error) {
   double total = 0;
   lamp->pages = calloc((size_t)count, sizeof *lamp->pages);
-  if (!lamp->pages) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!lamp->pages) return result_no_memory(error);
   for (int p = 0; p < count; ++p) {
     double flux[3];
     enum result result = make_far_page(lit[p], &lamp->pages[lamp->count++], error);

@@ -35,6 +35,6 @@ void point_print(const struct point *point, const struct include_text *text, FIL
       {"small_scale", .number = least_radius / (radius * point->width)},
       {"least_scale", .number = least_radius / (most_radius * point->width)},
       {"mapping", .text = "map_type 1 "},
-      {NULL}};
+      {0}};
   include_print(point_inc, text, &point->lamp, values, out);
 }

@@ -110,7 +110,7 @@ enum result sheet_make(const struct slab *slabs, int count, int lights, double d
   enum result result = include_lit_pages(slabs, count, &sheet->lamp, &lit, &lit_count, error);
   if (result == RESULT_OK) {
     sheet->pages = calloc((size_t)lit_count, sizeof *sheet->pages);
-    if (!sheet->pages) result = result_fail(error, RESULT_MEMORY, "out of memory");
+    if (!sheet->pages) result = result_no_memory(error);
   }
   for (int p = 0; p < lit_count && result == RESULT_OK; ++p)
     result = make_page(lit[p], (int)(lit[p] - slabs), lights, distance,

@@ -15,9 +15,8 @@ struct extent {
 
 static struct extent level_extent(const struct sheet_level *level) {
   const int *samples = level->views.samples;
-  struct extent extent = {(long long)samples[SLAB_U] * (samples[SLAB_S] + 2 * SHEET_RING),
-                          (long long)samples[SLAB_V] * (samples[SLAB_T] + 2 * SHEET_RING)};
-  return extent;
+  return (struct extent){(long long)samples[SLAB_U] * (samples[SLAB_S] + 2 * SHEET_RING),
+                         (long long)samples[SLAB_V] * (samples[SLAB_T] + 2 * SHEET_RING)};
 }
 
 static long long larger(long long x, long long y) {

@@ -61,7 +61,7 @@ static void print_pages(const void *of, FILE *out) {
         {"lost", .text = page->faintest < half_zero ? ", and the faintest to nothing" : ""},
         {"reach", .number = reach < 1e3 * plane_width(slab) ? reach : 0},
         {"table", .print = print_table, .of = page},
-        {NULL}};
+        {0}};
     if (p) putc('\n', out);
     include_fill(sheet_page_inc, "", values, out);
   }
@@ -136,6 +136,6 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
                                          {"least_height", .number = least_height},
                                          {"gate", .number = gate},
                                          {"gap", .number = gap},
-                                         {NULL}};
+                                         {0}};
   include_print(sheet_inc, text, &sheet->lamp, values, out);
 }

@@ -6,7 +6,7 @@
  *   @{key[2]}  for one of several numbers;
  *   @{if key}  leaves out the rest of its line, or all of it where it stands at the line's
  *              start, if the value is 0 or no text.
- * The text ends without its last line end, which is that of the line that asked for it.
+ * Each line ends with a line end; the last one's is left to the line that asked for the text.
  * base/embed.sh makes of X.inc.in the program's array X_inc. */
 #ifndef INCLUDE_FILL_H
 #define INCLUDE_FILL_H

@@ -41,7 +41,7 @@ enum result include_lit_pages(const struct slab *slabs, int count, struct includ
                               const struct slab ***lit, int *lit_count, struct error *error) {
   *lit_count = 0;
   *lit = calloc((size_t)count, sizeof **lit);
-  if (!*lit) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!*lit) return result_no_memory(error);
   for (int k = 0; k < count; ++k) {
     enum result result = check_radiance(&slabs[k], k, error);
     if (result != RESULT_OK) return result;
@@ -59,9 +59,9 @@ enum result include_check_colour(double colour, int page, struct error *error) {
   if (colour <= largest_colour) return RESULT_OK;
   if (page >= 0) snprintf(where, sizeof where, "page %d: ", page + 1);
   return result_fail(error, RESULT_BAD,
-                     "%sit is brighter than POV-Ray's light colours hold (%g); use a larger "
+                     "%sit is brighter than POV-Ray's light colours hold (1e37); use a larger "
                      "radiance unit",
-                     where, largest_colour);
+                     where);
 }
 
 uint64_t include_hash(uint64_t hash, const void *bytes, size_t count) {
