@@ -3,7 +3,7 @@
 SLAB_SOURCES := $(wildcard $(addprefix bakeslab/,base/*.c cli/*.c slab/*.c file/*.c))
 BAKE_SOURCES := $(filter-out $(SLAB_SOURCES) bakeslab/preload/%,$(wildcard bakeslab/*/*.c bakeslab/*/*/*.c))
 SLAB_OBJECTS := $(SLAB_SOURCES:%.c=$(B)/%.o)
-BAKE_OBJECTS := $(BAKE_SOURCES:%.c=$(B)/%.o) $(patsubst %.cc,$(B)/%.o,$(wildcard bakeslab/*/*/*.cc))
+BAKE_OBJECTS := $(BAKE_SOURCES:%.c=$(B)/%.o) $(patsubst %,$(B)/%.o,$(wildcard bakeslab/*/*/*.cc))
 
 # The texts of some files as C arrays: X_inc of X.inc.in, gl_X_frag of X.frag.glsl.
 define embed
@@ -55,8 +55,8 @@ $(READS): bakeslab/preload/reads.c | $(B)/flags
 
 # The only program that loads OpenImageIO.
 IMAGE := $(B)/lib/canned/bakeslab-image
-$(B)/bakeslab/image/bakeslab-image.o: EXTRA_CXXFLAGS = $(IMAGE_CFLAGS)
-$(IMAGE): $(B)/bakeslab/image/bakeslab-image.o
+$(B)/bakeslab/image/bakeslab-image.cc.o: EXTRA_CXXFLAGS = $(IMAGE_CFLAGS)
+$(IMAGE): $(B)/bakeslab/image/bakeslab-image.cc.o
 	@mkdir -p $(@D)
 	$(call say,LINK,$@)
 	$(Q)$(CXX) $(ALL_LDFLAGS) $^ $(IMAGE_LIBS) $(LDLIBS) -o $@

@@ -1,5 +1,5 @@
 # The reference renderer: its library, the program and its man pages.
-RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c)) $(patsubst %.cc,$(B)/%.o,$(wildcard render/*/*.cc))
+RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c)) $(patsubst %,$(B)/%.o,$(wildcard render/*/*.cc))
 
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
 

@@ -13,8 +13,8 @@ TEST_BATS := $(sort $(wildcard tests/*/*.bats tests/*/*/*.bats))
 TEST_NAMES := $(TEST_SOURCES:tests/%.c=%) $(TEST_BATS:tests/%.bats=%)
 ORACLE := $(B)/tests/oracle.a
 ORACLE_LIBS := -lgmp
-$(ORACLE): $(patsubst %,$(B)/%.o,$(basename $(wildcard tests/oracle/*.c tests/oracle/*.cc)))
-$(B)/tests/oracle/exact.o: EXTRA_CXXFLAGS = -Itests
+$(ORACLE): $(patsubst %.c,$(B)/%.o,$(wildcard tests/oracle/*.c)) $(patsubst %,$(B)/%.o,$(wildcard tests/oracle/*.cc))
+$(B)/tests/oracle/exact.cc.o: EXTRA_CXXFLAGS = -Itests
 
 include tests/robust.mk
 # Long ones first, so that no core is idle at the end.

@@ -17,7 +17,7 @@ static inline bool array_reserve(void *array, int *room, int count, size_t size)
   if (!grown) return false;
   memcpy(array, &grown, sizeof grown);
   *room = more;
-  return true;
+  return true; // cppcheck-suppress memleak ; *array has it
 }
 
 #endif
