@@ -87,11 +87,13 @@ enum result output_check(const char *const *outputs, int output_count, const cha
     if (!outputs[k]) continue;
     for (int i = 0; i < input_count; ++i)
       if (inputs[i] && same_file(outputs[k], inputs[i], true))
-        return result_fail(error, RESULT_BAD, "%s: is read too and would be overwritten",
+        return result_fail(error, RESULT_BAD,
+                           "%s: is read too and would be overwritten; choose another name",
                            outputs[k]);
     for (int i = 0; i < k; ++i)
       if (outputs[i] && same_file(outputs[k], outputs[i], false))
-        return result_fail(error, RESULT_BAD, "%s: is to hold two different outputs", outputs[k]);
+        return result_fail(error, RESULT_BAD,
+                           "%s: is to hold two different outputs; choose another name", outputs[k]);
     struct output trial;
     enum result result = output_begin(&trial, outputs[k], error);
     output_abandon(&trial);
