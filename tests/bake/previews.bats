@@ -22,6 +22,7 @@ setup() { bake_setup; }
 }
 
 @test "a preview shows what is baked: the wall's radiance" {
+  needs oiiotool
   flat_lamp flat.pov 'camera { location <0, 0, 0> direction -z right x up y }'
   povray +Iflat.pov "+L$CANNED_INCLUDE" +W8 +H8 -D +FE +Oflat.exr >log 2>&1
   small flat.pov -q -o slab.exr

@@ -3,12 +3,12 @@
 # slabs, and says of itself what it calls for.
 load bake
 
-# needs LAMP: its Canned_Needs, or that of the script that it includes.
-needs() {
+# calls_for LAMP: its Canned_Needs, or that of the script that it includes.
+calls_for() {
   local included
   sed -n 's/^Canned_Needs("\(.*\)").*/\1/p' "$1"
   included=$(sed -n 's/^#include "\(.*\.pov\)".*/\1/p' "$1")
-  [ -z "$included" ] || needs "$(dirname "$1")/$included"
+  [ -z "$included" ] || calls_for "$(dirname "$1")/$included"
 }
 
 # shelve LAMP: one lamp, cheaply: without radiosity, which +Q8 leaves out, and with
@@ -16,7 +16,7 @@ needs() {
 shelve() {
   local lamp=$1 name effects=none
   name=$(basename "$lamp" .pov)
-  [[ " $(needs "$lamp") " != *" caustics "* ]] || effects=caustics
+  [[ " $(calls_for "$lamp") " != *" caustics "* ]] || effects=caustics
   {
     povray "+I$lamp" "+L$CANNED_INCLUDE" "+L$(dirname "$lamp")" +W16 +H12 +Q8 +WT1 -D -GA +FP8 "+O$name.ppm" &&
       bake "$lamp" -q -j 1 -o "$name.tif" --uv 2x2 --st 8x8 --rays 1 --effects "$effects" &&
@@ -28,7 +28,7 @@ shelve() {
 setup_file() {
   load bake
   cd "$BATS_FILE_TMPDIR" || return 1
-  export -f bake needs shelve
+  export -f bake calls_for shelve
   printf '%s\n' "$CANNED_INCLUDE"/../lamps/*.pov | xargs -P "${TEST_JOBS:-2}" -I LAMP bash -c 'shelve LAMP'
 }
 
@@ -64,8 +64,8 @@ setup() {
   local lamp word
   for lamp in "${LAMPS[@]}"; do
     echo "$lamp"
-    [ "$(needs "$lamp" | wc -l)" -eq 1 ]
-    for word in $(needs "$lamp"); do
+    [ "$(calls_for "$lamp" | wc -l)" -eq 1 ]
+    for word in $(calls_for "$lamp"); do
       [[ " interreflection caustics extended_source deep_trace " == *" $word "* ]]
     done
     grep -q '^// It calls for ' "$lamp"

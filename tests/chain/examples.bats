@@ -9,6 +9,7 @@ examples=/usr/share/doc/povray/examples
 setup_file() {
   cd "$BATS_FILE_TMPDIR" || return
   load ../render/render
+  needs oiiotool
   letter_slab letter_f.tif letter_f 4 3 '"center": [0, 0, 0], "u": [2, 0, 0], "v": [0, 0, 1.6], "normal": [0, -1, 0], "st_window": [-1, 1, -1.2, 0.9]'
   "$BAKESLAB" include letter_f.tif -o letter_f.inc
   "$BAKESLAB" include letter_f.tif -o cluster.inc --mode cluster --lights 8

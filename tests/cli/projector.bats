@@ -6,6 +6,7 @@ bats_require_minimum_version 1.5.0
 load slab
 
 setup() {
+  needs oiiotool
   cd "$BATS_TEST_TMPDIR" || return
   export TMPDIR=$BATS_TEST_TMPDIR/tmp
   mkdir tmp

@@ -2,11 +2,11 @@
 # Bakes that are killed at any moment, and bakes of one output at the same time. KILLS: how
 # often (10); KILL_SEED: which moments; KILL_POVRAY=real: with POV-Ray itself, not its stand-in.
 bats_require_minimum_version 1.5.0
+load ../bake/bake
 
 setup() {
   cd "$BATS_TEST_TMPDIR" || return 1
   if [ "${KILL_POVRAY-}" = real ]; then
-    load ../bake/bake
     slow_lamp
     lamp=slow.pov povray=povray size=(--uv 16x16 --st 8x8 --rays 40 --uniform) longest=3
   else
@@ -20,18 +20,12 @@ setup() {
 # Becomes a bake of x.tif, so that a background job's process is it.
 a_bake() { exec "$BAKESLAB" bake "$lamp" --povray "$povray" "${size[@]}" --precision float --jobs 2 -q "$@"; }
 
-same() { "$BAKESLAB" diff --tolerance 0 "$1" "$2" >/dev/null; }
-
 # A random time up to $1 seconds.
 moment() { awk -v most="$1" -v r="$RANDOM" 'BEGIN { printf "%.3f", most * r / 32768 }'; }
 
 # No POV-Ray runs on, and whatever is called like the slab is the slab.
 nothing_half_done() {
-  local tries=40
-  while [ -n "$(find /proc/[0-9]*/cwd -lname "$PWD/*.partial/*" 2>/dev/null)" ]; do
-    [ "$((tries -= 1))" -gt 0 ] || return 1
-    sleep 0.05
-  done
+  no_process_left 40 || return 1
   [ ! -e x.tif ] || same x.tif whole.tif
 }
 

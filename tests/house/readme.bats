@@ -41,12 +41,13 @@ listed() {
   return 1
 }
 
+# The files below these folders: all of them where this is no repository. It may be another user's.
+committed() { git -c safe.directory='*' ls-files "$@" 2>/dev/null || find "$@" -type f; }
+
 @test "the nearest README has a line for each file" {
   local folder file lacking=0
   cd "$ROOT"
-  needs git
-  git ls-files >/dev/null || skip "not in a repository"
-  for file in $(git ls-files bakeslab include-pov lamps render tests | grep -v '/README\.md$'); do
+  for file in $(committed bakeslab include-pov lamps render tests | grep -v '/README\.md$'); do
     folder=${file%/*}
     while [ ! -e "$folder/README.md" ]; do folder=${folder%/*}; done
     listed "$folder/README.md" "$file" || { echo "$folder/README.md lacks $file" && lacking=$((lacking + 1)); }

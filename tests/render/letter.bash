@@ -4,6 +4,7 @@
 load render
 
 setup_file() {
+  needs oiiotool
   cd "$BATS_FILE_TMPDIR" || return
   letter_lamp
 }

@@ -4,6 +4,7 @@ bats_require_minimum_version 1.5.0
 load render
 
 setup_file() {
+  needs oiiotool xvfb-run xdotool
   cd "$BATS_FILE_TMPDIR" || return
   cp "$BATS_TEST_DIRNAME"/scenes/{gloss,patches}.{obj,mtl} .
   oiiotool --pattern checker:width=4:height=4:color1=0.9,0.8,0.1:color2=0.1,0.3,0.9 16x16 3 -d uint8 -o texture.png
@@ -14,7 +15,6 @@ setup() {
   mkdir "$BATS_TEST_TMPDIR/run"
   cd "$BATS_TEST_TMPDIR/run" || return
   ln -s "$BATS_FILE_TMPDIR"/* .
-  needs xvfb-run xdotool
   if [ "${CONFIG-}" = sanitize ]; then export LD_PRELOAD=$BUILD/tests/faults/keep.so; fi
 }
 
