@@ -1,7 +1,7 @@
 # What the bake's command-line tests share: a scratch folder each, a small lamp,
 # and what a refusal must look like.
 # shellcheck shell=bash
-load ../needs
+load ../testing
 
 bake_setup() {
   cd "$BATS_TEST_TMPDIR" || return 1

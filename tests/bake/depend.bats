@@ -1,6 +1,5 @@
 #!/usr/bin/env bats
 # bakeslab bake --depend: a rule that make itself takes for what it says.
-bats_require_minimum_version 1.5.0
 load bake
 
 setup() {
@@ -26,22 +25,19 @@ setup() {
   for name in flat.pov "${names[@]}"; do
     echo "$name"
     touch -d '1 hour' "$name"
-    run make -q slab.tif
-    [ "$status" -eq 1 ]
+    run -1 make -q slab.tif
     touch -d '1 hour ago' "$name"
     make -q slab.tif
   done
   for name in "${names[@]}"; do
     echo "$name"
     mv "$name" kept
-    run make -q slab.tif
-    [ "$status" -eq 1 ]
+    run -1 make -q slab.tif
     mv kept "$name"
   done
   # The script itself has no such rule.
   rm flat.pov
-  run make -q slab.tif
-  [ "$status" -eq 2 ]
+  run -2 make -q slab.tif
 }
 
 @test "the slab's name too; and to standard output" {
@@ -49,8 +45,7 @@ setup() {
   sed -i 's/^slab.tif/a\\ slab\\ \\#1.tif/' Makefile
   make -q 'a slab #1.tif'
   touch -d '1 hour' flat.pov
-  run make -q 'a slab #1.tif'
-  [ "$status" -eq 1 ]
+  run -1 make -q 'a slab #1.tif'
 }
 
 @test "refused before the work: names that make cannot carry, files that cannot be" {
@@ -70,7 +65,6 @@ setup() {
   cp x.d old.d
   echo '#include "more.inc"' >>flat.pov
   echo 'sphere { }' >more.inc
-  run small flat.pov -o x.tif --depend x.d
-  [ "$status" -eq 1 ]
+  run -1 small flat.pov -o x.tif --depend x.d
   cmp x.d old.d
 }

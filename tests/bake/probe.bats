@@ -1,6 +1,5 @@
 #!/usr/bin/env bats
 # What a bake finds out by itself: effects, windows, resolution.
-bats_require_minimum_version 1.5.0
 load bake
 
 setup() { bake_setup; }

@@ -1,6 +1,5 @@
 #!/usr/bin/env bats
 # --sandbox: POV-Ray reads what it likes, and can do no harm.
-bats_require_minimum_version 1.5.0
 load bake
 
 setup() {

@@ -2,7 +2,6 @@
 # Includes work in scenes that this project did not write: three of POV-Ray's own examples
 # (Debian's povray-examples), of #version 3.6 and 3.7, with assumed_gamma 2.2, 1.3 and 1, with
 # mirrors, a shadowless light, blobs and a sky. The lamp's light adds to what is there and changes nothing else.
-bats_require_minimum_version 1.5.0
 
 examples=/usr/share/doc/povray/examples
 

@@ -1,7 +1,6 @@
 #!/usr/bin/env bats
 # @FILE on the command line: further arguments from FILE, words as in a shell.
 
-bats_require_minimum_version 1.5.0
 load slab
 
 setup() {
@@ -28,8 +27,7 @@ x1 \
 # another
 END
   printf '%s\r\n' "\\" "  \\" '"it'"'"'s a \"slab\" #1.tif"' >c
-  run recorded @b @c
-  [ "$status" -eq 0 ]
+  run -0 recorded @b @c
   quoted="'it'\\\\''s a \\\"slab\\\" #1.tif'" # for a shell, and that for JSON
   [ "$output" = "-o out.exr --uv=1x1 --st 1x1 $quoted" ]
   printf '%s' "'it'\\''s a '\"\\\"slab\\\"\"\\ \\#1.tif -o out.exr" >d
@@ -39,8 +37,7 @@ END
 @test "both programs take their command from a file, and an empty file says nothing" {
   : >nothing
   echo info a.tif >b
-  run --separate-stderr "$BAKESLAB" @nothing @b @nothing
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" @nothing @b @nothing
   [[ $output == "a.tif: page 1 of 1"* ]]
   echo --version >b
   [ "$("$RENDERSLAB" @b)" = "$("$RENDERSLAB" --version)" ]
@@ -62,8 +59,7 @@ END
 @test "files name files, 8 deep" {
   echo a.tif >f8
   for k in 1 2 3 4 5 6 7; do echo "@f$((k + 1))" >f$k; done
-  run --separate-stderr "$BAKESLAB" info @f1
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" info @f1
   echo @f1 >f0
   refuses 2 "f7: line 1: @f8: files name files more than 8 deep" -- "$BAKESLAB" info @f0
   printf '\n\n@self\n' >self

@@ -1,7 +1,6 @@
 #!/usr/bin/env bats
 # convert --sharpen and check --error.
 
-bats_require_minimum_version 1.5.0
 load slab
 
 setup() {
@@ -51,8 +50,7 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
   for samples in '[1, 1, 1, 1] 1 1' '[2, 1, 3, 1] 6 1' '[1, 2, 1, 3] 1 6' '[1, 1, 5, 4] 5 4'; do
     raw_slab flat.tif "${samples% * *}" "$(cut -d' ' -f5 <<<"$samples")" "$(cut -d' ' -f6 <<<"$samples")" "$means" 3dcccccd 3f19999a 42c80000
     "$BAKESLAB" convert flat.tif -o sharp.exr --sharpen st
-    run --separate-stderr "$BAKESLAB" diff --tolerance 0 flat.tif sharp.exr
-    [ "$status" -eq 0 ]
+    run -0 --separate-stderr "$BAKESLAB" diff --tolerance 0 flat.tif sharp.exr
   done
 }
 
@@ -77,21 +75,18 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
 @test "--sharpen: usage" {
   for arguments in "--sharpen" "--sharpen uv" "--sharpen=" "--positive"; do
     # shellcheck disable=SC2086
-    run --separate-stderr "$BAKESLAB" convert edge.tif -o x.exr $arguments
-    [ "$status" -eq 2 ]
+    run -2 --separate-stderr "$BAKESLAB" convert edge.tif -o x.exr $arguments
     [ -n "$stderr" ]
   done
   [ ! -e x.exr ]
 }
 
 @test "check --error: three distances, what is not known" {
-  run --separate-stderr "$BAKESLAB" check --error edge.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" check --error edge.tif
   [[ $output == *"edge.tif: page 1: error of irradiance at 1 aperture (0.2): at least "*" % (st "*" %, uv unknown, noise unknown)"* ]]
   [[ $output == *"at 4 apertures (0.8)"*"at 16 apertures (3.2)"* ]]
   raw_slab one.tif '[1, 1, 1, 1]' 1 1 '' "$one"
-  run --separate-stderr "$BAKESLAB" check --error one.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" check --error one.tif
   [[ $output == *"at 16 apertures (3.2): unknown (st unknown, uv unknown, noise unknown)"* ]]
   raw_slab noisy.tif '[4, 4, 4, 4]' 16 16 ', "provenance": {"noise": {"sample": 0.1, "flux": 0.02}}' "$one" "$one" "$one"
   run --separate-stderr "$BAKESLAB" check --error noisy.tif
@@ -99,8 +94,7 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
   run --separate-stderr "$BAKESLAB" check noisy.tif
   [[ $output != *"error of"* ]]
   raw_slab dark.tif '[4, 4, 4, 4]' 16 16 '' "$zero"
-  run --separate-stderr "$BAKESLAB" check --error dark.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" check --error dark.tif
   [[ $output == *"about 0 % (st 0 %, uv 0 %, noise unknown)"* ]]
 }
 

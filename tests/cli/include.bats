@@ -1,7 +1,6 @@
 #!/usr/bin/env bats
 # bakeslab include: its modes, what they write and what they refuse.
 
-bats_require_minimum_version 1.5.0
 load slab
 
 setup() {
@@ -11,21 +10,18 @@ setup() {
 }
 
 @test "a cluster has no image; a point has one; the header tells their errors" {
-  run --separate-stderr "$BAKESLAB" include even.tif -o c.inc --mode cluster --lights 2
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" include even.tif -o c.inc --mode cluster --lights 2
   [ -z "$stderr" ]
   [ ! -e c.exr ]
   grep -q '^#macro Even_Canned(Scale, Gain)' c.inc
   grep -qE 'away: [0-9.e-]+ % at 1, [0-9.e-]+ % at 4, [0-9.e-]+ % at 16' c.inc
-  run "$BAKESLAB" include even.tif -o p.inc --mode point
-  [ "$status" -eq 0 ]
+  run -0 "$BAKESLAB" include even.tif -o p.inc --mode point
   [ -s p.exr ]
   grep -qE 'away: [0-9.e-]+ % at 1, [0-9.e-]+ % at 4, [0-9.e-]+ % at 16' p.inc
 }
 
 @test "auto says what it chose and why, also in the header" {
-  run --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode auto --tolerance 0.05 --distance 40
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" include even.tif -o a.inc --mode auto --tolerance 0.05 --distance 40
   [[ $stderr == "bakeslab: even.tif: note: at 40 aperture widths, with 5 % allowed, point: "*"sheet of 1x1"*"cluster of"* ]]
   grep -q '^// Chosen:  at 40 aperture widths, with 5 % allowed, point: ' a.inc
 }
@@ -54,8 +50,7 @@ setup() {
 @test "auto takes the sheet where no cluster is exact enough, and says how far off it is" {
   light() { for k in {0..63}; do ((k * 11 % 7)) && printf 00000000 || printf '%s' "$one"; done; }
   raw_slab speckled.tif '[2, 2, 8, 8]' 16 16 ', "name": "speckled"' "$(light)" "$(light)" "$(light)"
-  run --separate-stderr "$BAKESLAB" include speckled.tif -o a.inc --mode auto --tolerance 0.08 --distance 8
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" include speckled.tif -o a.inc --mode auto --tolerance 0.08 --distance 8
   [[ $stderr == *"with 8 % allowed, sheet of "*"cluster of "*" % off"* ]]
 }
 
@@ -64,8 +59,7 @@ setup() {
   spot=$dark${one}00000000${one}00000000${one}$(printf '00000000%.0s' {1..224})
   raw_slab spot.tif '[2, 2, 8, 8]' 16 16 ', "name": "spot"' "$spot"
   for mode in sheet cluster point; do
-    run --separate-stderr "$BAKESLAB" include spot.tif -o $mode.inc --mode $mode
-    [ "$status" -eq 0 ]
+    run -0 --separate-stderr "$BAKESLAB" include spot.tif -o $mode.inc --mode $mode
     [ -z "$stderr" ]
     grep -q '^// .*error' $mode.inc
   done
@@ -75,8 +69,7 @@ setup() {
   misused() { # WHAT IT SAYS, OPTIONS...
     local says=$1
     shift
-    run --separate-stderr "$BAKESLAB" include even.tif -o a.inc "$@"
-    [ "$status" -eq 2 ]
+    run -2 --separate-stderr "$BAKESLAB" include even.tif -o a.inc "$@"
     [[ $stderr == "bakeslab include: $says"* ]]
   }
   misused '--mode auto: needs --tolerance T' --mode auto

@@ -2,7 +2,6 @@
 # Headers of a few hundred bytes that claim gigabytes: refused in one line, before there is memory
 # for what they claim.
 # shellcheck disable=SC2154 # run sets status and stderr
-bats_require_minimum_version 1.5.0
 load slab
 
 setup() {

@@ -2,7 +2,6 @@
 # bakeslab projector: which way round the picture is, colours of kinds of images, refusals.
 # Its light is tested in tests/render/test_projector.c.
 
-bats_require_minimum_version 1.5.0
 load slab
 
 setup() {

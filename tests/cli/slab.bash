@@ -1,7 +1,7 @@
 # slab.bash - what the command-line tests share: refusals, and small slabs that are made without our
 # own writer, as an uncompressed big-endian float TIFF of one strip, by printf.
 # shellcheck shell=bash
-load ../needs
+load ../testing
 
 # raw_slab FILE SAMPLES(JSON) WIDTH HEIGHT MORE_JSON HEXFLOATS...
 # The variable `version` may name another version of the format.
@@ -32,20 +32,4 @@ raw_slab() {
   hex+=${data:0:$((8 * values))}
   # shellcheck disable=SC2059 # the bytes are the format
   printf "$(printf '%s' "$hex" | sed 's/../\\x&/g')" >"$file"
-}
-
-# refuses STATUS PIECE... -- COMMAND...: it exits so, with one line on stderr that begins with a
-# program's name and says all of the pieces.
-# shellcheck disable=SC2154 # status and stderr are set by run
-refuses() {
-  local wanted=$1 pieces=() piece
-  while shift && [ "$1" != -- ]; do pieces+=("$1"); done
-  shift
-  run --separate-stderr "$@"
-  [ "$status" -eq "$wanted" ] || { echo "status $status: $stderr"; return 1; }
-  [ "${#stderr_lines[@]}" -eq 1 ] || { echo "not one line: $stderr"; return 1; }
-  [[ $stderr == @(bakeslab|renderslab)*": "* ]] || { echo "no program's name: $stderr"; return 1; }
-  for piece in "${pieces[@]}"; do
-    [[ $stderr == *"$piece"* ]] || { echo "'$stderr' does not say '$piece'"; return 1; }
-  done
 }

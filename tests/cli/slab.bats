@@ -1,7 +1,6 @@
 #!/usr/bin/env bats
 # info, check, lookup, convert, diff on slabs that are written byte by byte here.
 
-bats_require_minimum_version 1.5.0
 load slab
 
 setup() {
@@ -14,8 +13,7 @@ setup() {
 }
 
 @test "info prints geometry, flux and peak" {
-  run --separate-stderr "$BAKESLAB" info a.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" info a.tif
   [[ $output == *"a.tif: page 1 of 1: ramp"* ]]
   [[ $output == *"2 x 1 x 2 x 2, float"* ]]
   [[ $output == *"st distance"*"infinite"* ]]
@@ -25,8 +23,7 @@ setup() {
 @test "info --json: a constant slab has Lambert's flux" {
   # radiance 1: 0.04 * 4 corner(1,1), corner = atan(1/sqrt 2)/sqrt 2 = 0.435209...
   raw_slab one.tif '[1, 1, 1, 1]' 1 1 ', "metres_per_unit": 0.5, "radiance_unit": "W/(sr m2)"' "$one" "$one" "$one"
-  run --separate-stderr "$BAKESLAB" info --json one.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" info --json one.tif
   flux=$(tr -d ' \n' <<<"$output" | sed 's/.*"flux":\[\([0-9.e-]*\),.*/\1/')
   awk -v f="$flux" 'BEGIN { c = atan2(1, sqrt(2)) / sqrt(2); e = 0.04 * 4 * c * 0.25; exit !(f/e - 1 < 1e-6 && 1 - f/e < 1e-6) }'
   [[ $output == *'"flux_unit": "W"'* ]]
@@ -42,7 +39,7 @@ setup() {
 }
 
 @test "lookup answers rays, in order, outside with zeros" {
-  run --separate-stderr "$BAKESLAB" lookup a.tif <<'END'
+  run -0 --separate-stderr "$BAKESLAB" lookup a.tif <<'END'
 # i=0: a=-0.05; k=1: s=0.5; any point of the ray will do
 -0.05 0 0   0.5 -1 0
 0.45 -1 0.25   0.5 -1 0.25
@@ -51,7 +48,6 @@ setup() {
 9 0 0   0 -1 0
 0 0 0   0 -2 0
 END
-  [ "$status" -eq 0 ]
   [ "${lines[0]}" = "2 0.5 0" ]
   [ "${lines[1]}" = "2 0.5 0" ]
   [ "${lines[2]}" = "0 0 0" ]
@@ -80,8 +76,7 @@ $line"
 }
 
 @test "a slab on stdin" {
-  run --separate-stderr "$BAKESLAB" info - <a.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" info - <a.tif
   [[ $output == *"2 x 1 x 2 x 2"* ]]
 }
 
@@ -90,8 +85,7 @@ $line"
   "$BAKESLAB" convert b.exr -o c.tif --precision half
   "$BAKESLAB" convert c.tif -o d.exr --precision half
   "$BAKESLAB" convert d.exr -o e.tif --precision float
-  run --separate-stderr "$BAKESLAB" diff a.tif e.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" diff a.tif e.tif
   grep -aq '"x-key": \[7\]' e.tif
   run --separate-stderr "$BAKESLAB" info --json e.tif
   [[ $output == *"bakeslab convert d.exr -o e.tif --precision float"* ]]
@@ -124,43 +118,34 @@ $line"
 
 @test "diff: 0 same, 1 differ, 2 trouble" {
   "$BAKESLAB" convert a.tif -o l.tif
-  run --separate-stderr "$BAKESLAB" diff a.tif l.tif
-  [ "$status" -eq 1 ]
+  run -1 --separate-stderr "$BAKESLAB" diff a.tif l.tif
   [[ $output == *"rmse"*"largest"*"flux"* ]]
-  run --separate-stderr "$BAKESLAB" diff --tolerance 0.03 a.tif l.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" diff --tolerance 0.03 a.tif l.tif
   "$BAKESLAB" convert a.tif -o s.exr --uv 1x1
-  run --separate-stderr "$BAKESLAB" diff --tolerance 9 a.tif s.exr
-  [ "$status" -eq 1 ]
+  run -1 --separate-stderr "$BAKESLAB" diff --tolerance 9 a.tif s.exr
   [[ $output == *'"samples" differs'* ]]
   refuses 2 "none.tif" "No such file" -- "$BAKESLAB" diff a.tif none.tif
-  run --separate-stderr "$BAKESLAB" diff a.tif
-  [ "$status" -eq 2 ]
+  run -2 --separate-stderr "$BAKESLAB" diff a.tif
 }
 
 @test "check: warnings are no errors, unless --strict" {
-  run --separate-stderr "$BAKESLAB" check a.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" check a.tif
   [[ $output == *"warning: light is cut off at the high end of s (st window)"*"more than 2 %"* ]]
   [[ $output == *"a.tif: page 1: valid"* ]]
-  run --separate-stderr "$BAKESLAB" check --strict a.tif
-  [ "$status" -eq 1 ]
+  run -1 --separate-stderr "$BAKESLAB" check --strict a.tif
   raw_slab dark.tif '[1, 1, 3, 1]' 3 1 '' 0000000000000000000000003f8000003f8000003f800000000000000000000000000000
-  run --separate-stderr "$BAKESLAB" check --strict dark.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" check --strict dark.tif
   [[ $output != *warning* ]]
 }
 
 @test "check: flux at the aperture and on a box around; light that is there twice" {
   needs tiffcp
   raw_slab even.tif '[1, 1, 2, 2]' 2 2 ', "metres_per_unit": 2' "$one" "$one" "$one"
-  run --separate-stderr "$BAKESLAB" check even.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" check even.tif
   [[ $output =~ "flux 0.2785 0.2785 0.2785 relative m2 sr at the aperture, "[+-][0-9.e-]+" % on a closed box around (known to 0.0" ]]
   [[ $output != *twice* ]]
   tiffcp even.tif even.tif two.tif
-  run --separate-stderr "$BAKESLAB" check two.tif
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" check two.tif
   [[ $output == *"two.tif: page 1: warning: 100 % of its flux leaves through the aperture of page 2 too, and is there twice"* ]]
 }
 
@@ -208,16 +193,14 @@ $line"
     "$BAKESLAB" convert a.tif -o - $more >piped.tif
     # shellcheck disable=SC2086
     "$BAKESLAB" convert - -o - $more <a.tif | cat | "$BAKESLAB" diff - file.tif
-    run --separate-stderr "$BAKESLAB" diff file.tif piped.tif
-    [ "$status" -eq 0 ]
+    run -0 --separate-stderr "$BAKESLAB" diff file.tif piped.tif
   done
   [ ! -e - ]
   raw_slab neg.tif '[1, 1, 1, 1]' 1 1 '' bf800000 bf800000 bf800000
   refuses 1 "stdout: page 1: sample (0, 0, 0, 0)" "--precision float" -- "$BAKESLAB" convert neg.tif -o -
   [ -z "$output" ]
   [ -c /dev/full ] || skip "no /dev/full"
-  run bash -c '"$0" convert a.tif -o - 2>err >/dev/full' "$BAKESLAB"
-  [ "$status" -eq 1 ]
+  run -1 bash -c '"$0" convert a.tif -o - 2>err >/dev/full' "$BAKESLAB"
   grep -q "bakeslab: stdout: cannot be written: No space left" err
 }
 
@@ -226,17 +209,14 @@ $line"
     "include a.tif -o q.inc"; do
     for option in -q --quiet; do
       # shellcheck disable=SC2086
-      run --separate-stderr "$BAKESLAB" $command $option <<<"0 0 0 0 -1 0"
-      [ "$status" -eq 0 ]
+      run -0 --separate-stderr "$BAKESLAB" $command $option <<<"0 0 0 0 -1 0"
       [ -z "$stderr" ]
     done
   done
   raw_slab odd.tif '[1, 1, 1, 1]' 1 1 ', "name": "odd", "provenance": {"housing": "#end"}' "$one"
-  run --separate-stderr "$BAKESLAB" include odd.tif -o odd.inc
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" include odd.tif -o odd.inc
   [[ $stderr == "bakeslab: odd.tif: note: its housing is left out"* ]]
-  run --separate-stderr "$BAKESLAB" include -q odd.tif -o odd.inc
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" include -q odd.tif -o odd.inc
   [ -z "$stderr" ]
   refuses 1 "none.tif: No such file" -- "$BAKESLAB" info -q none.tif
 }
@@ -247,8 +227,7 @@ $line"
     "convert a.tif -o x.tif --uv 0x3" "convert a.tif -o x.tif --st 3x" "convert a.tif -o x.tif --crop uv=2:1,0:1" \
     "diff a.tif a.tif --tolerance x"; do
     # shellcheck disable=SC2086
-    run --separate-stderr "$BAKESLAB" $arguments
-    [ "$status" -eq 2 ]
+    run -2 --separate-stderr "$BAKESLAB" $arguments
     [ -n "$stderr" ]
     [ -z "$output" ]
   done
@@ -256,13 +235,11 @@ $line"
 
 @test "help and version go to stdout, with examples" {
   for command in info check lookup convert diff; do
-    run --separate-stderr "$BAKESLAB" $command --help
-    [ "$status" -eq 0 ]
+    run -0 --separate-stderr "$BAKESLAB" $command --help
     [[ $output == *"Usage: bakeslab $command"*"Examples:"*"bakeslab $command"* ]]
     [ "$("$BAKESLAB" help $command)" = "$output" ]
   done
-  run --separate-stderr "$BAKESLAB" --version
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$BAKESLAB" --version
   [[ $output == bakeslab\ [0-9]* ]]
 }
 
@@ -270,19 +247,16 @@ $line"
   [ -c /dev/full ] || skip "no /dev/full"
   for command in "info a.tif" "info --json a.tif" "check a.tif" "lookup a.tif" "info --help" "--help" "--version"; do
     # shellcheck disable=SC2086
-    run bash -c "echo 0 0 0 0 -1 0 | \"\$0\" $command 2>err >/dev/full" "$BAKESLAB"
-    [ "$status" -eq 1 ]
+    run -1 bash -c "echo 0 0 0 0 -1 0 | \"\$0\" $command 2>err >/dev/full" "$BAKESLAB"
     grep -q "bakeslab: stdout: No space left" err
   done
-  run bash -c '"$0" diff a.tif a.tif 2>err >/dev/full' "$BAKESLAB"
-  [ "$status" -eq 2 ]
+  run -2 bash -c '"$0" diff a.tif a.tif 2>err >/dev/full' "$BAKESLAB"
 }
 
 @test "a closed pipe is an error" {
   mkfifo pipe
   # 4 writes into a pipe that nobody reads any more
-  run bash -c 'trap "" PIPE; exec 3<>pipe 4>pipe 3<&-; "$0" info a.tif 2>err >&4' "$BAKESLAB"
-  [ "$status" -eq 1 ]
+  run -1 bash -c 'trap "" PIPE; exec 3<>pipe 4>pipe 3<&-; "$0" info a.tif 2>err >&4' "$BAKESLAB"
   grep -q "bakeslab: stdout: Broken pipe" err
 }
 

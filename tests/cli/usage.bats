@@ -2,16 +2,14 @@
 # What both programs do alike: usage errors are one line, help, versions.
 
 # shellcheck disable=SC2154 # run sets stderr and stderr_lines
-bats_require_minimum_version 1.5.0
-load ../needs
+load ../testing
 
 @test "usage errors are one line, from argp and from getopt" {
   for arguments in "" "frobnicate" "help frobnicate" "info" "info a b" "info --nonsense a" "info -x a" \
     "info --json=3 a" "lookup a --page" "lookup a --page 0" "check" "diff a" "diff a b c" \
     "convert a -o b.tif --uv 0x3" "include a" "bake" "bake a -o b.tif --shard 5" "bake -x"; do
     # shellcheck disable=SC2086
-    run --separate-stderr "$BAKESLAB" $arguments
-    [ "$status" -eq 2 ]
+    run -2 --separate-stderr "$BAKESLAB" $arguments
     [ -z "$output" ]
     [ "${#stderr_lines[@]}" -eq 1 ] || { echo "not one line: $stderr"; false; }
     [[ $stderr == bakeslab*": "* && $stderr != *"Try"* ]]
@@ -24,23 +22,19 @@ load ../needs
 
 @test "a full stdout does not hide a usage error" {
   [ -c /dev/full ] || skip "no /dev/full"
-  run bash -c '"$0" info 2>&1 >/dev/full' "$BAKESLAB"
-  [ "$status" -eq 2 ]
+  run -2 bash -c '"$0" info 2>&1 >/dev/full' "$BAKESLAB"
   [ "$output" = "bakeslab info: no slab given" ]
 }
 
 @test "renderslab tells its help and version, and knows no other command" {
-  run --separate-stderr "$RENDERSLAB" --help
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$RENDERSLAB" --help
   [[ $output == "Usage: renderslab COMMAND"*"Exit status: 0 done"* ]]
   [ "$("$RENDERSLAB" help)" = "$output" ]
-  run --separate-stderr "$RENDERSLAB" --version
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "$RENDERSLAB" --version
   [ "$output" = "$("$BAKESLAB" --version | sed 's/bakeslab/renderslab/')" ]
   for arguments in "" "frobnicate" "info" "help frobnicate"; do
     # shellcheck disable=SC2086
-    run --separate-stderr "$RENDERSLAB" $arguments
-    [ "$status" -eq 2 ]
+    run -2 --separate-stderr "$RENDERSLAB" $arguments
     [ "${#stderr_lines[@]}" -eq 1 ]
     [[ $stderr == "renderslab: "*"see renderslab --help" ]]
   done
@@ -49,8 +43,7 @@ load ../needs
 @test "bakeslab does not load renderslab's libraries" {
   needs ldd
   for library in embree assimp png; do
-    run ldd "$BAKESLAB"
-    [ "$status" -eq 0 ]
+    run -0 ldd "$BAKESLAB"
     [[ $output != *"lib$library"* ]]
   done
 }

@@ -1,7 +1,6 @@
 #!/usr/bin/env bats
 # Bakes that are killed at any moment, and bakes of one output at the same time. KILLS: how
 # often (10); KILL_SEED: which moments; KILL_POVRAY=real: with POV-Ray itself, not its stand-in.
-bats_require_minimum_version 1.5.0
 load ../bake/bake
 
 setup() {

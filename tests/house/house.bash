@@ -1,7 +1,7 @@
 # What the house tests share. They call make in the repository with a build
 # folder of their own, so that they never meet the build they are run from.
 # shellcheck shell=bash
-load ../needs
+load ../testing
 ROOT=$(cd "$BATS_TEST_DIRNAME/../.." && pwd)
 
 # make as a user calls it, whatever make runs these tests.

@@ -3,23 +3,20 @@
 load house
 
 @test "make help lists the targets" {
-  run house_make help
-  [ "$status" -eq 0 ]
+  run -0 house_make help
   for target in all setup demo test bare bench lint sanitize install uninstall clean man help; do
     grep -q "^make $target  *[a-z]" <<<"$output"
   done
 }
 
 @test "an unknown configuration is refused in one line" {
-  run house_make config=fast all
-  [ "$status" -eq 2 ]
+  run -2 house_make config=fast all
   [ "${#lines[@]}" -eq 1 ]
   [[ $output == *"config=fast is none of release, debug, sanitize, thread and fuzz"* ]]
 }
 
 @test "a test that does not exist is refused with a list" {
-  run house_make B="$BATS_TEST_TMPDIR" test T=unit/test_nonsense
-  [ "$status" -ne 0 ]
+  run ! house_make B="$BATS_TEST_TMPDIR" test T=unit/test_nonsense
   [[ $output == *"T=unit/test_nonsense names no test"*"house/makefile"* ]]
 }
 
@@ -27,8 +24,7 @@ load house
 says() {
   local line=$1
   shift
-  run house_make B="$BATS_TEST_TMPDIR/b" "$@" all
-  [ "$status" -ne 0 ]
+  run ! house_make B="$BATS_TEST_TMPDIR/b" "$@" all
   [ "$(grep -vE '^(make:|[A-Z]+) ' <<<"$output")" = "$line" ] || { echo "$output"; return 1; }
 }
 
@@ -79,8 +75,7 @@ blind_compiler() {
   log=$BATS_TEST_TMPDIR/x.log
   sh "$ROOT/tests/run.sh" "$log" printf '1..3\nok 1 a\nnot ok 2 b\nok 3 c # skip no reason\n'
   [ "$(cat "$log.count")" = "1 1 1" ]
-  run sh "$ROOT/tests/summary.sh" "$log"
-  [ "$status" -eq 1 ]
+  run -1 sh "$ROOT/tests/summary.sh" "$log"
   [ "${lines[0]}" = "skipped: ok 3 c # skip no reason" ]
   [ "${lines[1]}" = "1 passed, 1 failed" ]
 

@@ -51,9 +51,8 @@ goals() { sed -n 's/^SETS_UP := //p' "$ROOT/setup.mk" | tr ' ' '\n' | grep -vxE 
     for jobs in -j1 -j8; do
       rm -rf "$fake"/{ended,early,late} "$BATS_TEST_TMPDIR/b"
       # shellcheck disable=SC2086
-      MISSING=gcc run set_up $jobs FIGURES="$BATS_TEST_TMPDIR/b/figures" $goal
+      MISSING=gcc run ! set_up $jobs FIGURES="$BATS_TEST_TMPDIR/b/figures" $goal
       echo "$jobs $goal: $output"
-      [ "$status" -ne 0 ]
       [ -e "$fake/ended" ]
       [ ! -s "$fake/early" ] || { cat "$fake/early"; false; }
       [ -s "$fake/late" ]
@@ -66,16 +65,14 @@ goals() { sed -n 's/^SETS_UP := //p' "$ROOT/setup.mk" | tr ' ' '\n' | grep -vxE 
   fake_debian
   fake_builders
   fake_tool apt-get 'exit 100'
-  MISSING=gcc run set_up -j8 demo test
-  [ "$status" -ne 0 ]
+  MISSING=gcc run ! set_up -j8 demo test
   [ ! -e "$fake/early" ]
   [ "$(find "$BATS_TEST_TMPDIR/b" -type f)" = "$BATS_TEST_TMPDIR/b/setup.log" ]
 }
 
 @test "what a command line says reaches the second make" {
   fake_debian
-  run set_up test T='unit/none cli/none'
-  [ "$status" -ne 0 ]
+  run ! set_up test T='unit/none cli/none'
   [[ $output == *"T=unit/none cli/none names no test"* ]]
   run set_up -j1 config=fast test
   [[ $output == *"config=fast is none of"* ]]
@@ -83,23 +80,20 @@ goals() { sed -n 's/^SETS_UP := //p' "$ROOT/setup.mk" | tr ' ' '\n' | grep -vxE 
 
 @test "set-up installs what is missing, named first, and nothing twice" {
   fake_debian
-  MISSING='bats povray' run set_up setup
-  [ "$status" -eq 0 ]
+  MISSING='bats povray' run -0 set_up setup
   [ "${lines[0]}" = "make setup: apt installs bats povray" ]
   [ "$(cat "$fake/called")" = "apt-get update -qq
 apt-get install -y -q --no-install-recommends bats povray" ]
 
   rm "$fake/called"
-  MISSING='' run set_up setup
-  [ "$status" -eq 0 ]
+  MISSING='' run -0 set_up setup
   [ -z "$output" ]
   [ ! -e "$fake/called" ]
 }
 
 @test "SETUP=no asks nobody" {
   fake_debian
-  MISSING='bats povray' run house_make SETUP=no setup
-  [ "$status" -eq 0 ]
+  MISSING='bats povray' run -0 house_make SETUP=no setup
   [ ! -e "$fake/called" ]
 }
 
@@ -109,8 +103,7 @@ apt-get install -y -q --no-install-recommends bats povray" ]
   update) echo 'W: Failed to fetch http://mirror/InRelease  Temporary failure resolving mirror' ;;
   *) echo 'E: Unable to locate package libtiff-dev' >&2; exit 100 ;;
 esac"
-  MISSING='libtiff-dev bats' run set_up test
-  [ "$status" -ne 0 ]
+  MISSING='libtiff-dev bats' run ! set_up test
   [ "$(grep -c 'could not' <<<"$output")" -eq 1 ]
   [[ $output == *"make setup: apt could not install bats libtiff-dev: Failed to fetch http://mirror/InRelease "*"resolving mirror; "*setup.log* ]]
 }
@@ -118,8 +111,7 @@ esac"
 @test "what apt says of a package that it does not have is told" {
   fake_debian
   fake_tool apt-get "[ \$1 = update ] || { echo 'E: Unable to locate package bats'; exit 100; }"
-  MISSING=bats run set_up test
-  [ "$status" -ne 0 ]
+  MISSING=bats run ! set_up test
   [[ $output == *"make setup: apt could not install bats: Unable to locate package bats; "* ]]
 }
 
@@ -135,8 +127,7 @@ bare_path() {
 
 @test "where there is no apt, set-up names what is needed in one line" {
   bare_path
-  run set_up setup
-  [ "$status" -ne 0 ]
+  run ! set_up setup
   [[ ${lines[0]} == *"no apt here: install C and C++ compilers"*libtiff*OpenEXR*jansson*xxhash*CGAL*OpenImageIO*Embree*assimp*libpng*POV-Ray* ]]
 }
 
@@ -146,8 +137,7 @@ bare_path() {
   fake_tool id 'echo 1000'
   bare_path
   PATH=$fake:$bare
-  MISSING='povray' run set_up setup
-  [ "$status" -ne 0 ]
+  MISSING='povray' run ! set_up setup
   [[ $output == *"neither root nor sudo: as root, apt-get install povray"* ]]
   [ ! -e "$fake/called" ]
 }
@@ -171,12 +161,10 @@ bare_path() {
 @test "make bare says what it lacks, and fails" {
   fake_debian
   fake_tool id 'echo 1000'
-  run bash "$ROOT/tests/bare.sh" "$BATS_TEST_TMPDIR/log" demo
-  [ "$status" -eq 1 ]
+  run -1 bash "$ROOT/tests/bare.sh" "$BATS_TEST_TMPDIR/log" demo
   [ "$output" = 'make bare: only root can make a bare machine' ]
   fake_tool id 'echo 0'
   bare_path
-  PATH=$fake:$bare run bash "$ROOT/tests/bare.sh" "$BATS_TEST_TMPDIR/log" demo
-  [ "$status" -eq 1 ]
+  PATH=$fake:$bare run -1 bash "$ROOT/tests/bare.sh" "$BATS_TEST_TMPDIR/log" demo
   [ "$output" = 'make bare: debootstrap is not here: run `make setup`' ]
 }

@@ -1,6 +1,5 @@
 #!/usr/bin/env bats
 # renderslab image: what the picture shows, and what is refused.
-bats_require_minimum_version 1.5.0
 load letter
 
 # picture OUT OPTION...: the floor lit from above, 40 x 30.
@@ -99,9 +98,8 @@ picture() {
   grep -aq 'Exposure.*0.5 is white' sky.png
   oiiotool --info -v sky.exr | grep -q 'renderslab image floor.obj'
   # The default leaves 99 % of the pixels below 0.9, and is told.
-  run --separate-stderr "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 \
+  run -0 --separate-stderr "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 \
     --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125 --preview sky.png
-  [ "$status" -eq 0 ]
   [ "$stderr" = "renderslab: sky.png: note: radiance 0.5556 is white; --exposure 0.5556 keeps it" ]
   [ "$(mean_of sky.png --mulc 255)" = 243,179,130 ]
 }
@@ -130,14 +128,8 @@ picture() {
   [ -z "$output$stderr" ]
 }
 
-# refuses PIECE OPTION...: a run with other options than a good one is refused, and leaves no file.
-refuses() {
-  local piece=$1
-  shift
-  run --separate-stderr "$RENDERSLAB" image "$@"
-  refused "$piece" || return 1
-  [ "$(ls)" = "$before" ] || { echo "left behind: $(ls)"; return 1; }
-}
+# rejects PIECE OPTION...: refused, and nothing is left.
+rejects() { harmless "$1" "$RENDERSLAB" image "${@:2}"; }
 
 @test "bad meshes" {
   good=(--light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr)
@@ -147,17 +139,17 @@ refuses() {
   sed '/^mtllib/d; /^usemtl/d' floor.obj >materials.obj
   echo "no mesh" >text.obj
   : >empty.obj
-  before=$(ls)
-  refuses nothere.obj nothere.obj "${good[@]}"
-  refuses nan.obj nan.obj "${good[@]}"
-  refuses flat.obj flat.obj "${good[@]}"
-  refuses normals.obj normals.obj "${good[@]}"
-  refuses materials.obj materials.obj "${good[@]}"
-  refuses text.obj text.obj "${good[@]}"
-  refuses empty.obj empty.obj "${good[@]}"
-  refuses scenes . "${good[@]}" || refuses . . "${good[@]}"
-  refuses mesh "${good[@]}"
-  refuses two.obj floor.obj two.obj "${good[@]}"
+  remember
+  rejects nothere.obj nothere.obj "${good[@]}"
+  rejects nan.obj nan.obj "${good[@]}"
+  rejects flat.obj flat.obj "${good[@]}"
+  rejects normals.obj normals.obj "${good[@]}"
+  rejects materials.obj materials.obj "${good[@]}"
+  rejects text.obj text.obj "${good[@]}"
+  rejects empty.obj empty.obj "${good[@]}"
+  rejects scenes . "${good[@]}" || rejects . . "${good[@]}"
+  rejects mesh "${good[@]}"
+  rejects two.obj floor.obj two.obj "${good[@]}"
   # Mended, those without normals or materials show something.
   "$RENDERSLAB" image normals.obj "${good[@]}" -q --repair --size 40x30
   "$RENDERSLAB" image materials.obj "${good[@]}" -q --repair --size 40x30
@@ -165,50 +157,50 @@ refuses() {
 
 @test "bad lights and methods" {
   good=(floor.obj --camera 'from=0,2,-3 at=0,0,0' -o a.exr)
-  before=$(ls)
-  refuses light "${good[@]}"
-  refuses nothere.tif "${good[@]}" --light nothere.tif
-  refuses floor.obj "${good[@]}" --light floor.obj
-  refuses matrix "${good[@]}" --light 'letter_f.tif matrix=1,0,0,1,0,0,0,0,1,0,0,0'
-  refuses toward "${good[@]}" --light 'letter_f.tif at=1,1,1 toward=1,1,1'
-  refuses scale "${good[@]}" --light 'letter_f.tif scale=0'
-  refuses "auto, reference, paper, midpoint, pi, closed, views" "${good[@]}" --light letter_f.tif --method best
-  refuses 'it is for paper, paper-levels' "${good[@]}" --light letter_f.tif --seed 1
-  refuses 'not with --method pi' "${good[@]}" --light letter_f.tif --method pi --level 2
-  refuses shadow-grid "${good[@]}" --light letter_f.tif --method gl --shadow-grid 8
-  refuses 'it is for gl' "${good[@]}" --light letter_f.tif --shadow-map 512
-  refuses highlight gloss.obj "${good[@]:1}" --light letter_f.tif --method closed
-  refuses tolerance "${good[@]}" --light letter_f.tif --tolerance 0
-  refuses tolerance "${good[@]}" --light letter_f.tif --tolerance nan
-  refuses threads "${good[@]}" --light letter_f.tif --threads 0
-  refuses shadow-edge "${good[@]}" --light letter_f.tif --shadow-grid 32 --shadow-edge 16
-  refuses 'shadow-edge 4097: must be a whole number from 1 to 4096' "${good[@]}" --light letter_f.tif --shadow-edge 4097
+  remember
+  rejects light "${good[@]}"
+  rejects nothere.tif "${good[@]}" --light nothere.tif
+  rejects floor.obj "${good[@]}" --light floor.obj
+  rejects matrix "${good[@]}" --light 'letter_f.tif matrix=1,0,0,1,0,0,0,0,1,0,0,0'
+  rejects toward "${good[@]}" --light 'letter_f.tif at=1,1,1 toward=1,1,1'
+  rejects scale "${good[@]}" --light 'letter_f.tif scale=0'
+  rejects "auto, reference, paper, midpoint, pi, closed, views" "${good[@]}" --light letter_f.tif --method best
+  rejects 'it is for paper, paper-levels' "${good[@]}" --light letter_f.tif --seed 1
+  rejects 'not with --method pi' "${good[@]}" --light letter_f.tif --method pi --level 2
+  rejects shadow-grid "${good[@]}" --light letter_f.tif --method gl --shadow-grid 8
+  rejects 'it is for gl' "${good[@]}" --light letter_f.tif --shadow-map 512
+  rejects highlight gloss.obj "${good[@]:1}" --light letter_f.tif --method closed
+  rejects tolerance "${good[@]}" --light letter_f.tif --tolerance 0
+  rejects tolerance "${good[@]}" --light letter_f.tif --tolerance nan
+  rejects threads "${good[@]}" --light letter_f.tif --threads 0
+  rejects shadow-edge "${good[@]}" --light letter_f.tif --shadow-grid 32 --shadow-edge 16
+  rejects 'shadow-edge 4097: must be a whole number from 1 to 4096' "${good[@]}" --light letter_f.tif --shadow-edge 4097
 }
 
 @test "bad sizes, cameras and outputs" {
   good=(floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0')
   mkdir folder
-  before=$(ls)
+  remember
   for size in 0 0x10 10x0 2147483648 2147483648x1 1x2147483648 65537 -1 10x 1e3 '' nan; do
-    refuses size "${good[@]}" -o a.exr "--size=$size"
+    rejects size "${good[@]}" -o a.exr "--size=$size"
   done
   for camera in '' nonsense 'from=0,0,0' 'from=0,0,0 at=0,0,0' 'from=0,0,0 at=0,1,0' \
     'from=nan,0,0 at=0,1,2' 'from=0,0 at=0,1,2' 'from=0,0,0 at=0,1,2 fov=180' 'from=0,0,0 at=0,1,2 fov=0'; do
-    refuses "" floor.obj --light letter_f.tif -o a.exr "--camera=$camera"
+    rejects "" floor.obj --light letter_f.tif -o a.exr "--camera=$camera"
   done
-  refuses camera floor.obj --light letter_f.tif -o a.exr
-  refuses samples "${good[@]}" -o a.exr --samples 0
-  refuses exposure "${good[@]}" -o a.exr --exposure -1
-  refuses background "${good[@]}" -o a.exr --background 1,2
-  refuses output "${good[@]}"
-  refuses .exr "${good[@]}" -o a.png
-  refuses nowhere "${good[@]}" -o nowhere/a.exr
-  refuses nowhere "${good[@]}" -o a.exr --preview nowhere/a.png
-  refuses nowhere "${good[@]}" -o a.exr --stats nowhere/a.json
-  refuses folder "${good[@]}" -o a.exr --stats folder
-  refuses a.exr "${good[@]}" -o a.exr --stats a.exr
-  refuses floor.obj "${good[@]}" -o a.exr --preview floor.obj
-  refuses letter_f.tif "${good[@]}" -o a.exr --preview letter_f.tif
+  rejects camera floor.obj --light letter_f.tif -o a.exr
+  rejects samples "${good[@]}" -o a.exr --samples 0
+  rejects exposure "${good[@]}" -o a.exr --exposure -1
+  rejects background "${good[@]}" -o a.exr --background 1,2
+  rejects output "${good[@]}"
+  rejects .exr "${good[@]}" -o a.png
+  rejects nowhere "${good[@]}" -o nowhere/a.exr
+  rejects nowhere "${good[@]}" -o a.exr --preview nowhere/a.png
+  rejects nowhere "${good[@]}" -o a.exr --stats nowhere/a.json
+  rejects folder "${good[@]}" -o a.exr --stats folder
+  rejects a.exr "${good[@]}" -o a.exr --stats a.exr
+  rejects floor.obj "${good[@]}" -o a.exr --preview floor.obj
+  rejects letter_f.tif "${good[@]}" -o a.exr --preview letter_f.tif
 }
 
 @test "a time limit: the coarsest picture in any case, and how good it is" {
@@ -221,9 +213,9 @@ refuses() {
   picture timed.exr --time-limit 1000
   oiiotool free.exr timed.exr --diff # all that was asked for, in the end
   oiiotool free.exr late.exr --fail 0.1 --failpercent 20 --diff
-  before=$(ls)
+  remember
   for limit in 0 -1 nan x; do
-    refuses limit floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr --time-limit "$limit"
+    rejects limit floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr --time-limit "$limit"
   done
 }
 
@@ -239,7 +231,7 @@ refuses() {
 
 @test "a picture too large for the memory" {
   [[ $CONFIG != @(sanitize|thread) ]] || skip "shadow memory needs more than the limit"
-  before=$(ls)
+  remember
   ulimit -v 8000000
-  refuses memory floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr --size 65536
+  rejects memory floor.obj --light letter_f.tif --camera 'from=0,2,-3 at=0,0,0' -o a.exr --size 65536
 }

@@ -1,7 +1,6 @@
 #!/usr/bin/env bats
 # The office of figure 6: the mesh that it writes is the scene that POV-Ray draws, and its
 # light and camera stand where the scene's do.
-bats_require_minimum_version 1.5.0
 
 setup() {
   load render

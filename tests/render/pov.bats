@@ -2,7 +2,6 @@
 # renderslab pov: POV-Ray renders the same picture from it, lit by the includes of the same
 # slabs. Both sum over the slab's uv samples, so what remains is POV-Ray's half floats (2e-4)
 # and edges of shadows.
-bats_require_minimum_version 1.5.0
 load letter
 
 @test "a floor" {
@@ -80,25 +79,16 @@ load letter
   "$BAKESLAB" include twin.tif -o twin.inc
   "$BAKESLAB" convert letter_f.tif -o own.exr
   before=$(ls)
-  pov() { run --separate-stderr "$RENDERSLAB" pov floor.obj --camera "$camera" "$@"; }
-  pov --light bare.tif -o a.pov
-  refused 'bare.inc' 'bakeslab include bare.tif -o bare.inc'
-  pov --light alien.tif -o a.pov
-  refused alien.inc 'bakeslab include alien.tif -o alien.inc'
-  pov --light letter_f.tif --light twin.tif -o a.pov
-  refused twin.inc letter_f.inc Letter_F --name
-  pov --light own.exr -o a.pov
-  refused own.exr 'bakeslab convert own.exr'
-  pov --light letter_f.tif -o nowhere/a.pov
-  refused nowhere
-  pov --light letter_f.tif -o letter_f.inc
-  refused letter_f.inc
-  pov --light letter_f.tif -o floor.obj
-  refused floor.obj
-  pov --light letter_f.tif
-  refused output
+  pov=("$RENDERSLAB" pov floor.obj --camera "$camera")
+  refuses "[12]" 'bare.inc' 'bakeslab include bare.tif -o bare.inc' -- "${pov[@]}" --light bare.tif -o a.pov
+  refuses "[12]" alien.inc 'bakeslab include alien.tif -o alien.inc' -- "${pov[@]}" --light alien.tif -o a.pov
+  refuses "[12]" twin.inc letter_f.inc Letter_F --name -- "${pov[@]}" --light letter_f.tif --light twin.tif -o a.pov
+  refuses "[12]" own.exr 'bakeslab convert own.exr' -- "${pov[@]}" --light own.exr -o a.pov
+  refuses "[12]" nowhere -- "${pov[@]}" --light letter_f.tif -o nowhere/a.pov
+  refuses "[12]" letter_f.inc -- "${pov[@]}" --light letter_f.tif -o letter_f.inc
+  refuses "[12]" floor.obj -- "${pov[@]}" --light letter_f.tif -o floor.obj
+  refuses "[12]" output -- "${pov[@]}" --light letter_f.tif
   [ "$(ls)" = "$before" ]
-  pov --light letter_f.tif -o -
-  [ "$status" -eq 0 ]
+  run -0 --separate-stderr "${pov[@]}" --light letter_f.tif -o -
   [[ $output == *'mesh2 {'* ]]
 }

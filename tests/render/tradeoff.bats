@@ -1,6 +1,5 @@
 #!/usr/bin/env bats
 # renderslab tradeoff: what the table says, and what is refused. Never how long anything took.
-bats_require_minimum_version 1.5.0
 load letter
 
 # tradeoff OPTION...: the floor and what stands on it, lit from above.
@@ -74,47 +73,41 @@ column() {
   [ "$(head -c 4 t.png | tail -c 3)" = PNG ]
 }
 
-# refuses PIECE OPTION...: one line, and nothing is left.
-refuses() {
-  local piece=$1
-  shift
-  run --separate-stderr env "PATH=${SEARCH:-$PATH}" "$RENDERSLAB" tradeoff "$@"
-  refused "$piece" || return 1
-  [ "$(ls)" = "$before" ] || { echo "left behind: $(ls)"; return 1; }
-}
+# rejects PIECE OPTION...: refused, and nothing is left.
+rejects() { harmless "$1" env "PATH=${SEARCH:-$PATH}" "$RENDERSLAB" tradeoff "${@:2}"; }
 
 @test "bad input" {
   view=(--camera 'from=0.3,2,-2.2 at=0,0,0.1')
   good=(occluder.obj --light 'letter_f.tif at=0,1,0' "${view[@]}" --size 16x12 --repeats 1)
   mkdir folder
-  before=$(ls)
-  refuses 'add -o' "${good[@]}"
-  refuses 'no mesh' "${good[@]:1}" -o t.tsv
-  refuses 'no camera' occluder.obj --light letter_f.tif -o t.tsv
-  refuses 'no light' occluder.obj "${view[@]}" -o t.tsv
-  refuses nothere.obj nothere.obj "${good[@]:1}" -o t.tsv
-  refuses nothere.tif occluder.obj "${view[@]}" --light nothere.tif -o t.tsv
-  for value in 0 -1 nan inf 1e-13 0.2 x ''; do refuses finest "${good[@]}" -o t.tsv "--finest=$value"; done
-  for value in 0 100 1.5 x ''; do refuses repeats "${good[@]}" -o t.tsv "--repeats=$value"; done
-  for value in -1 31 1.5 x ''; do refuses levels "${good[@]}" -o t.tsv "--levels=$value"; done
-  refuses threads "${good[@]}" -o t.tsv --threads 0
-  refuses size "${good[@]}" -o t.tsv --size 0x3
-  for value in nonsense '' 'pi,,' pi,best; do refuses 'there is no method' "${good[@]}" -o t.tsv "--methods=$value"; done
-  refuses folder "${good[@]}" -o folder
-  refuses nowhere "${good[@]}" -o nowhere/t.tsv
-  refuses occluder.obj "${good[@]}" -o occluder.obj
-  refuses letter_f.tif "${good[@]}" -o letter_f.tif
-  refuses t.svg "${good[@]}" -o t.svg --plot t.svg
-  refuses '.svg or .png' "${good[@]}" -o t.tsv --plot t.jpg
-  refuses '.svg or .png' "${good[@]}" -o t.tsv --plot .svg
+  remember
+  rejects 'add -o' "${good[@]}"
+  rejects 'no mesh' "${good[@]:1}" -o t.tsv
+  rejects 'no camera' occluder.obj --light letter_f.tif -o t.tsv
+  rejects 'no light' occluder.obj "${view[@]}" -o t.tsv
+  rejects nothere.obj nothere.obj "${good[@]:1}" -o t.tsv
+  rejects nothere.tif occluder.obj "${view[@]}" --light nothere.tif -o t.tsv
+  for value in 0 -1 nan inf 1e-13 0.2 x ''; do rejects finest "${good[@]}" -o t.tsv "--finest=$value"; done
+  for value in 0 100 1.5 x ''; do rejects repeats "${good[@]}" -o t.tsv "--repeats=$value"; done
+  for value in -1 31 1.5 x ''; do rejects levels "${good[@]}" -o t.tsv "--levels=$value"; done
+  rejects threads "${good[@]}" -o t.tsv --threads 0
+  rejects size "${good[@]}" -o t.tsv --size 0x3
+  for value in nonsense '' 'pi,,' pi,best; do rejects 'there is no method' "${good[@]}" -o t.tsv "--methods=$value"; done
+  rejects folder "${good[@]}" -o folder
+  rejects nowhere "${good[@]}" -o nowhere/t.tsv
+  rejects occluder.obj "${good[@]}" -o occluder.obj
+  rejects letter_f.tif "${good[@]}" -o letter_f.tif
+  rejects t.svg "${good[@]}" -o t.svg --plot t.svg
+  rejects '.svg or .png' "${good[@]}" -o t.tsv --plot t.jpg
+  rejects '.svg or .png' "${good[@]}" -o t.tsv --plot .svg
   # Lamps below the floor light nothing.
-  refuses 'no light reaches' occluder.obj --light 'letter_f.tif at=0,-1,0' "${view[@]}" --size 16x12 -o t.tsv
+  rejects 'no light reaches' occluder.obj --light 'letter_f.tif at=0,-1,0' "${view[@]}" --size 16x12 -o t.tsv
   # Nothing but closed, which cannot do shadows.
-  refuses 'no method' "${good[@]}" -o t.tsv --methods closed
+  rejects 'no method' "${good[@]}" -o t.tsv --methods closed
 }
 
 @test "without gnuplot there is one line, before the work" {
-  before=$(ls)
-  SEARCH=$PWD/nowhere refuses gnuplot occluder.obj --light 'letter_f.tif at=0,1,0' --size 16x12 \
+  remember
+  SEARCH=$PWD/nowhere rejects gnuplot occluder.obj --light 'letter_f.tif at=0,1,0' --size 16x12 \
     --camera 'from=0.3,2,-2.2 at=0,0,0.1' -o t.tsv --plot t.svg
 }

@@ -1,6 +1,5 @@
 #!/usr/bin/env bats
 # renderslab view in a window: keys, pictures that are saved and made again, refusals.
-bats_require_minimum_version 1.5.0
 load render
 
 setup_file() {
@@ -95,23 +94,16 @@ press_keys() {
 
 @test "without display or OpenGL 4.3 one line says what is missing and what does without" {
   local lamp=(--light letter_f.tif)
-  run --separate-stderr env -u DISPLAY -u WAYLAND_DISPLAY "$RENDERSLAB" view gloss.obj "${lamp[@]}"
-  refused 'no display' 'renderslab image'
-  [ "$status" -eq 1 ]
-  MESA_GL_VERSION_OVERRIDE=3.3 run --separate-stderr view gloss.obj "${lamp[@]}"
-  refused 'OpenGL 4.3' 'renderslab image'
-  [ "$status" -eq 1 ]
+  refuses 1 'no display' 'renderslab image' -- env -u DISPLAY -u WAYLAND_DISPLAY "$RENDERSLAB" view gloss.obj "${lamp[@]}"
+  MESA_GL_VERSION_OVERRIDE=3.3 refuses 1 'OpenGL 4.3' 'renderslab image' -- view gloss.obj "${lamp[@]}"
 }
 
 @test "keys that are none; a folder that takes no picture" {
-  run --separate-stderr view gloss.obj --light letter_f.tif --keys 'left lefft q'
-  refused lefft pageup
-  [ "$status" -eq 2 ]
+  refuses 2 lefft pageup -- view gloss.obj --light letter_f.tif --keys 'left lefft q'
   mkdir gone
   cd gone || return
   rm -r ../gone
-  run --separate-stderr view "$BATS_FILE_TMPDIR/gloss.obj" --light "$BATS_FILE_TMPDIR/letter_f.tif" --keys 's q'
-  [ "$status" -eq 1 ]
+  run -1 --separate-stderr view "$BATS_FILE_TMPDIR/gloss.obj" --light "$BATS_FILE_TMPDIR/letter_f.tif" --keys 's q'
   [[ $stderr == *view-1.exr* ]]
   [ -z "$output" ]
 }
