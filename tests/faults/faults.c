@@ -203,7 +203,7 @@ static void clear(const struct faults_command *command, bool old) {
   must(chdir(top) == 0, top);
   files_remove_tree("run");
   must(mkdir("run", 0777) == 0 && chdir("run") == 0, "run");
-  snprintf(names, sizeof names, "%s", command->outputs);
+  snprintf(names, sizeof names, "%s", command->outputs ? command->outputs : "");
   for (char *name = strtok(names, " "); old && name; name = strtok(NULL, " "))
     must(files_write(".", name, old_content, NULL) == RESULT_OK, name);
 }

@@ -10,7 +10,7 @@ struct faults_command {
   const char *name;
   const char *line;    /* words between single blanks */
   const char *in;      /* stdin, or NULL */
-  const char *outputs; /* files that it writes */
+  const char *outputs; /* files that it writes, or NULL */
   int fails_with;      /* exit status; 0: 1 */
   bool goes_on;        /* keeps finished work where it fails */
   int cost;            /* one in so many faults is tried; 0: all */
@@ -21,18 +21,12 @@ struct faults_command {
 };
 
 static const struct faults_command faults_commands[] = {
-    {.name = "info", .line = "bakeslab info ../in/little.tif", .outputs = ""},
-    {.name = "info-json", .line = "bakeslab info --json ../in/little.tif", .outputs = ""},
-    {.name = "info-stdin", .line = "bakeslab info -", .in = "../in/little.tif", .outputs = ""},
-    {.name = "check", .line = "bakeslab check --error ../in/little.tif", .outputs = "", .cost = 4},
-    {.name = "lookup",
-     .line = "bakeslab lookup ../in/little.tif",
-     .in = "../in/rays",
-     .outputs = ""},
-    {.name = "diff",
-     .line = "bakeslab diff ../in/little.tif ../in/little.tif",
-     .outputs = "",
-     .fails_with = 2},
+    {.name = "info", .line = "bakeslab info ../in/little.tif"},
+    {.name = "info-json", .line = "bakeslab info --json ../in/little.tif"},
+    {.name = "info-stdin", .line = "bakeslab info -", .in = "../in/little.tif"},
+    {.name = "check", .line = "bakeslab check --error ../in/little.tif", .cost = 4},
+    {.name = "lookup", .line = "bakeslab lookup ../in/little.tif", .in = "../in/rays"},
+    {.name = "diff", .line = "bakeslab diff ../in/little.tif ../in/little.tif", .fails_with = 2},
     {.name = "convert-logluv",
      .line = "bakeslab convert ../in/little.tif -o x.tif",
      .outputs = "x.tif"},
@@ -48,7 +42,7 @@ static const struct faults_command faults_commands[] = {
      .outputs = "x.tif",
      .cost = 4,
      .children = true},
-    {.name = "convert-stdout", .line = "bakeslab convert ../in/little.tif -o -", .outputs = ""},
+    {.name = "convert-stdout", .line = "bakeslab convert ../in/little.tif -o -"},
     {.name = "arguments", .line = "bakeslab @../in/arguments", .outputs = "x.tif"},
     {.name = "include-sheet",
      .line = "bakeslab include ../in/little.tif --name lamp -o x.inc",
@@ -85,51 +79,45 @@ static const struct faults_command faults_commands[] = {
      .children = true},
     {.name = "irradiance",
      .line = "renderslab irradiance --light ../in/little.tif --mesh ../in/square.obj --threads 2",
-     .in = "../in/receivers",
-     .outputs = ""},
+     .in = "../in/receivers"},
     {.name = "irradiance-cut",
      .line = "renderslab irradiance --light ../in/little.tif --method cut --threads 1",
-     .in = "../in/receivers",
-     .outputs = ""},
+     .in = "../in/receivers"},
     {.name = "image",
-     .line = "renderslab image -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
-             "--size 8x6 --threads 2 -o x.exr --preview x.png",
+     .line = "renderslab image -q ../in/square.obj @../in/lit --threads 2 -o x.exr --preview x.png",
      .outputs = "x.exr x.png"},
     {.name = "image-stats",
-     .line = "renderslab image -q ../in/slide.obj --light ../in/little.tif --camera @../in/camera "
-             "--size 8x6 --method cut --threads 1 -o - --stats x.json",
+     .line = "renderslab image -q ../in/slide.obj @../in/lit --method cut --threads 1 -o - --stats "
+             "x.json",
      .outputs = "x.json",
      .cost = 8,
      .children = true,
      .timed = true},
     {.name = "image-gl",
-     .line = "renderslab image -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
-             "--size 8x6 --method gl -o x.exr",
+     .line = "renderslab image -q ../in/square.obj @../in/lit --method gl -o x.exr",
      .outputs = "x.exr",
      .cost = 20,
      .driver = true},
     {.name = "tradeoff",
-     .line = "renderslab tradeoff -q ../in/square.obj --light ../in/little.tif --camera "
-             "@../in/camera --size 8x6 --repeats 1 --finest 0.1 --methods pi,auto -o x.tsv",
+     .line = "renderslab tradeoff -q ../in/square.obj @../in/lit --repeats 1 --finest 0.1 "
+             "--methods pi,auto -o x.tsv",
      .outputs = "x.tsv",
      .cost = 4,
      .timed = true},
     {.name = "tradeoff-plot",
-     .line = "renderslab tradeoff -q ../in/square.obj --light ../in/little.tif --camera "
-             "@../in/camera --size 8x6 --repeats 1 --finest 0.1 --methods pi -o x.tsv --plot x.svg",
+     .line = "renderslab tradeoff -q ../in/square.obj @../in/lit --repeats 1 --finest 0.1 "
+             "--methods pi -o x.tsv --plot x.svg",
      .outputs = "x.tsv x.svg",
      .cost = 20,
      .children = true,
      .timed = true},
     {.name = "view",
-     .line = "renderslab view -q ../in/square.obj --light ../in/little.tif --camera @../in/camera "
-             "--size 60x40 @../in/keys",
+     .line = "renderslab view -q ../in/square.obj @../in/lit --size 60x40 @../in/keys",
      .outputs = "view-1.exr",
      .cost = 20,
      .driver = true},
     {.name = "pov",
-     .line =
-         "renderslab pov ../in/square.obj --light ../in/little.tif --camera @../in/camera -o x.pov",
+     .line = "renderslab pov ../in/square.obj @../in/lit -o x.pov",
      .outputs = "x.pov"},
 };
 enum { faults_command_count = sizeof faults_commands / sizeof *faults_commands };
