@@ -12,9 +12,10 @@ enum { MOST_TESTS = 32 };
 static struct CMUnitTest tests[MOST_TESTS];
 static size_t test_count;
 
-void testing_add(const char *name, CMUnitTestFunction test) {
+void testing_add(const char *name, CMUnitTestFunction test, const void *row) {
   if (test_count == MOST_TESTS) abort();
-  tests[test_count++] = (struct CMUnitTest){.name = name, .test_func = test};
+  tests[test_count++] =
+      (struct CMUnitTest){.name = name, .test_func = test, .initial_state = (void *)(uintptr_t)row};
 }
 
 int testing_run(CMFixtureFunction setup, CMFixtureFunction teardown) {

@@ -16,13 +16,14 @@
 #define TEST(name)                                                                                 \
   static void name(void **);                                                                       \
   __attribute__((constructor)) static void name##_is_there(void) {                                 \
-    testing_add(#name, name);                                                                      \
+    testing_add(#name, name, NULL);                                                                \
   }                                                                                                \
   static void name(__attribute__((unused)) void **unused)
-void testing_add(const char *name, CMUnitTestFunction test);
+/* And one of a row of a table, whose cmocka state points to the row. */
+void testing_add(const char *name, CMUnitTestFunction test, const void *row);
 
-/* Runs the tests in the order in which they stand in the file; what main returns. Setup and
- * teardown, or NULL, are of all of them together. */
+/* Runs the tests in the order in which they were added, that of the file; what main returns. Setup
+ * and teardown, or NULL, are of all of them together. */
 int testing_run(CMFixtureFunction setup, CMFixtureFunction teardown);
 
 /* A path in a scratch directory of this process, which exists; valid until the next 8 calls. The

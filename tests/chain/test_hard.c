@@ -48,7 +48,7 @@ static void run(int row, uint32_t seed, table sums) {
 
 static void test_row(void **state) {
   static table sums;
-  const int row = *(const int *)*state;
+  const int row = (int)((const struct hard_row *)*state - hard_rows);
   int missed = 0;
   for (uint32_t seed = 0; seed < HARD_KINDS; ++seed) run(row, seed, sums);
   for (int k = 0; k < HARD_KINDS; ++k) missed += sums[row][k].missed;
@@ -56,15 +56,9 @@ static void test_row(void **state) {
 }
 
 static int test(void) {
-  static struct CMUnitTest tests[MOST_ROWS];
-  static int rows[MOST_ROWS];
-  for (int row = 0; row < hard_row_count; ++row) {
-    rows[row] = row;
-    tests[row] = (struct CMUnitTest)cmocka_unit_test_prestate(test_row, &rows[row]);
-    tests[row].name = hard_rows[row].name;
-  }
-  return _cmocka_run_group_tests("hard", tests, (size_t)hard_row_count, chain_setup,
-                                 chain_teardown);
+  for (int row = 0; row < hard_row_count; ++row)
+    testing_add(hard_rows[row].name, test_row, &hard_rows[row]);
+  return testing_run(chain_setup, chain_teardown);
 }
 
 /* ---- The sweep. */

@@ -114,9 +114,8 @@ static bool is_above(const struct slab *slab, const struct surfel *at) {
 static void take(const struct path *path, double x, int only, bool gl, struct step *step) {
   struct slab slab;
   struct surfel at;
-  struct lamp lamp;
   place(path, x, &slab, &at);
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   const struct oracle_value exact = oracle_irradiance(&slab, at.p, at.n);
   struct look look = look_at(&lamp, &at, &exact);
   step->x = x;

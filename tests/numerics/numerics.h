@@ -47,10 +47,12 @@ struct trial {
   struct growth *growth; /* NULL: not wanted */
 };
 
+typedef void row_run(struct trial *trial);
 struct numerics_row {
-  const char *name, *text, *oracle;
-  void (*run)(struct trial *trial);
-  int seeds; /* of a sweep, per unit of effort */
+  const char *name, *text;
+  row_run *run;
+  int seeds;          /* of a sweep, per unit of effort */
+  const char *oracle; /* NULL: exact rationals, long double quadrature */
 };
 extern const struct numerics_row numerics_rows[];
 extern const int numerics_row_count;
@@ -71,7 +73,7 @@ struct lamp {
   bool positive;        /* no sample is negative */
   struct gl_gather *gl; /* made when it is first asked for; owned */
 };
-void lamp_open(struct lamp *lamp, const struct slab *slab); /* takes the slab over */
+struct lamp lamp_open(const struct slab *slab); /* takes the slab over */
 void lamp_close(struct lamp *lamp);
 /* Counts: NULL allowed. Not for gl. */
 void lamp_sum(const struct lamp *lamp, enum gather_method method, double tolerance,
@@ -152,34 +154,10 @@ bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS]
                   const struct growth *growth);
 
 /* The rows (rows_*.c). */
-void row_distance(struct trial *trial);
-void row_grazing_receiver(struct trial *trial);
-void row_grazing_lamp(struct trial *trial);
-void row_aspect(struct trial *trial);
-void row_st_distance(struct trial *trial);
-void row_range(struct trial *trial);
-void row_offset(struct trial *trial);
-void row_peak(struct trial *trial);
-void row_sizes(struct trial *trial);
-void row_signed(struct trial *trial);
-void row_tangent(struct trial *trial);
-void row_window(struct trial *trial);
-void row_touching(struct trial *trial);
-void row_st_plane(struct trial *trial);
-void row_st_infinity(struct trial *trial);
-void row_lines(struct trial *trial);
-void row_constant(struct trial *trial);
-void row_mpmath(struct trial *trial);
-void row_powers(struct trial *trial);
-void row_units(struct trial *trial);
-void row_symmetry(struct trial *trial);
-void row_superposition(struct trial *trial);
-void row_neighbours(struct trial *trial);
-void row_growth(struct trial *trial);
-void row_switches(struct trial *trial);
-void row_strips(struct trial *trial);
-void row_single(struct trial *trial);
-void row_levels(struct trial *trial);
-void row_random(struct trial *trial);
+row_run row_distance, row_grazing_receiver, row_grazing_lamp, row_aspect, row_st_distance,
+    row_range, row_offset, row_peak, row_sizes, row_signed, row_tangent, row_window, row_touching,
+    row_st_plane, row_st_infinity, row_lines, row_constant, row_mpmath, row_powers, row_units,
+    row_symmetry, row_superposition, row_neighbours, row_growth, row_switches, row_strips,
+    row_single, row_levels, row_random;
 
 #endif

@@ -88,7 +88,8 @@ bool report_write(const char *path, const struct tally table[][NUMERICS_METHODS]
   for (int k = 0; k < methods; ++k) fprintf(file, "<th>%s", gather_methods[k].name);
   for (int row = 0; row < numerics_row_count; ++row) {
     const struct numerics_row *about = &numerics_rows[row];
-    fprintf(file, "\n<tr><td>%s<small>%s; by %s</small>", about->name, about->text, about->oracle);
+    fprintf(file, "\n<tr><td>%s<small>%s; by %s</small>", about->name, about->text,
+            about->oracle ? about->oracle : "exact rationals, long double quadrature");
     for (int k = 0; k < methods; ++k) {
       const struct tally *tally = &table[row][k];
       char text[32];

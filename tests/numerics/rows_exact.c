@@ -17,8 +17,7 @@ void row_constant(struct trial *trial) {
   enum frame frame = (enum frame)random_choose(&trial->seed, 3);
   struct slab slab =
       rough_slab(grid, trial_distance(trial), ordinary, frame, FILL_CONSTANT, trial->seed);
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   for (int k = 0; k < 8; ++k) {
     double z = random_log(&trial->seed, 1e-3, 1e3);
     struct surfel receiver = aimed_receiver(
@@ -57,14 +56,13 @@ void row_mpmath(struct trial *trial) {
                                 entry->window, FRAME_PLAIN, FILL_CONSTANT, 0);
   struct surfel receiver;
   struct oracle_value exact = {{0}, {0}, 0};
-  struct lamp lamp;
   slab.u[0] = entry->length[0];
   slab.v[1] = entry->length[1];
   for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k)
     slab.rgb[k] = table_sample(entry->seed, (uint32_t)k);
   memcpy(receiver.p, entry->p, sizeof receiver.p);
   memcpy(receiver.n, entry->n, sizeof receiver.n);
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   const struct oracle_value value = oracle_irradiance(&slab, receiver.p, receiver.n);
   for (int c = 0; c < 3; ++c) {
     exact.e[c] = exact.magnitude[c] = entry->rgb[c];
@@ -142,8 +140,7 @@ void row_strips(struct trial *trial) {
   const double distance =
       random_choose(&trial->seed, 2) ? INFINITY : random_log(&trial->seed, 1e-3, 1e3);
   struct slab slab = rough_slab(grid, distance, ordinary, FRAME_PLAIN, FILL_CONSTANT, 0);
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   for (int k = 0; k < 40; ++k) {
     const double z = random_log(&trial->seed, 1e-12, 1e12);
     const struct surfel at = aimed_receiver(&slab, z, RECEIVER_FACING, &trial->seed);
@@ -209,8 +206,7 @@ static bool single(const struct slab *slab, const struct surfel *at, bool means,
 void row_single(struct trial *trial) {
   struct slab slab =
       rough_slab(grid, trial_distance(trial), ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   for (int k = 0; k < 20; ++k) {
     const double z = random_log(&trial->seed, 1e-6, 1e6);
     const struct surfel at = aimed_receiver(&slab, z, RECEIVER_GENERAL, &trial->seed);
@@ -236,8 +232,7 @@ void row_levels(struct trial *trial) {
   for (int axis = 0; axis < SLAB_AXES; ++axis) samples[axis] = 1 + random_choose(&trial->seed, 12);
   struct slab slab =
       rough_slab(samples, trial_distance(trial), ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   const struct levels *levels = &lamp.levels.levels[0];
   for (int c = 0; c < 3; ++c)
     for (int k = 0; k < levels->count; ++k) /* samples of a level have the same area */

@@ -11,10 +11,10 @@ enum { EACH = 4 };
 static const int grid[SLAB_AXES] = {4, 3, 6, 5};
 static const double ordinary[4] = {-0.7, 1.1, -0.9, 0.6};
 
-static void open_plain(struct trial *trial, double distance, struct lamp *lamp) {
+static struct lamp open_plain(struct trial *trial, double distance) {
   enum fill fill = random_choose(&trial->seed, 2) ? FILL_UNIFORM : FILL_EXTREME;
   struct slab slab = rough_slab(grid, distance, ordinary, FRAME_PLAIN, fill, trial->seed);
-  lamp_open(lamp, &slab);
+  return lamp_open(&slab);
 }
 
 /* 0, or of either sign from `least` on. */
@@ -39,8 +39,7 @@ static void face_away(struct surfel *receiver, struct trial *trial) {
 
 /* Down to the uv plane and on it: inside, on the border, outside. */
 void row_touching(struct trial *trial) {
-  struct lamp lamp;
-  open_plain(trial, trial_distance(trial), &lamp);
+  struct lamp lamp = open_plain(trial, trial_distance(trial));
   for (int k = 0; k < EACH; ++k) {
     struct surfel receiver = {{0}, {0}};
     const double heights[] = {0, 1e-300, random_log(&trial->seed, 1e-30, 0.1)};
@@ -58,8 +57,7 @@ void row_touching(struct trial *trial) {
 /* Through the st plane: where the order of the st lines reverses, and on it. */
 void row_st_plane(struct trial *trial) {
   double distance = random_log(&trial->seed, 0.1, 10);
-  struct lamp lamp;
-  open_plain(trial, distance, &lamp);
+  struct lamp lamp = open_plain(trial, distance);
   for (int k = 0; k < EACH; ++k) {
     double z = distance * (1 + any_offset(trial, 1e-16, 0.1));
     struct surfel receiver = aimed_receiver(
@@ -75,8 +73,7 @@ void row_st_plane(struct trial *trial) {
  * its lines, or beside it. */
 void row_window(struct trial *trial) {
   double distance = trial_distance(trial);
-  struct lamp lamp;
-  open_plain(trial, distance, &lamp);
+  struct lamp lamp = open_plain(trial, distance);
   for (int k = 0; k < EACH; ++k) {
     double z = random_log(&trial->seed, 1e-3, 1e6);
     struct surfel receiver = {{0, 0, z}, {0}};
@@ -98,8 +95,7 @@ void row_window(struct trial *trial) {
  * samples, or beside them. */
 void row_tangent(struct trial *trial) {
   double distance = trial_distance(trial);
-  struct lamp lamp;
-  open_plain(trial, distance, &lamp);
+  struct lamp lamp = open_plain(trial, distance);
   for (int k = 0; k < EACH; ++k) {
     double z = random_log(&trial->seed, 1e-2, 1e4), to_light[3], along[3] = {0};
     struct surfel receiver = aimed_receiver(&lamp.slab, z, RECEIVER_GENERAL, &trial->seed);
@@ -140,8 +136,7 @@ void row_lines(struct trial *trial) {
   static const int even[SLAB_AXES] = {8, 8, 8, 8};
   const double tolerance = 1e-3, distance = random_choose(&trial->seed, 2) ? INFINITY : 16;
   struct slab slab = rough_slab(even, distance, window, FRAME_PLAIN, FILL_EXTREME, trial->seed);
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   struct surfel on = {{(random_choose(&trial->seed, 9) - 4) / 16.0,
                        (random_choose(&trial->seed, 7) - 3) / 16.0,
                        ldexp(1, random_choose(&trial->seed, 12) - 6)},
@@ -175,7 +170,7 @@ void row_st_infinity(struct trial *trial) {
   uint64_t fill = trial->seed;
   for (int k = 0; k < 2; ++k) {
     slabs[k] = rough_slab(grid, k ? INFINITY : distance, ordinary, FRAME_PLAIN, FILL_UNIFORM, fill);
-    lamp_open(&lamps[k], &slabs[k]);
+    lamps[k] = lamp_open(&slabs[k]);
   }
   for (int k = 0; k < EACH; ++k) {
     double z = random_log(&trial->seed, 1e-2, 10);

@@ -70,9 +70,8 @@ void row_neighbours(struct trial *trial) {
                  random_choose(&trial->seed, 2) ? FILL_UNIFORM : FILL_EXTREME, trial->seed);
   struct receiver receivers[COUNT];
   struct gathered all[COUNT], other[COUNT];
-  struct lamp lamp;
   struct occlusion *occlusion = NULL;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   place_receivers(trial, &slab, receivers);
   if (random_choose(&trial->seed, 2)) place_screen(&occlusion);
   for (int k = 0; k < GATHER_METHODS; ++k) {

@@ -29,8 +29,7 @@ static enum fill any_fill(struct trial *trial) {
 }
 
 static void hold_aimed(struct trial *trial, struct slab *slab, double nearest, double farthest) {
-  struct lamp lamp;
-  lamp_open(&lamp, slab);
+  struct lamp lamp = lamp_open(slab);
   for (int k = 0; k < EACH; ++k) {
     double z = random_log(&trial->seed, nearest, farthest);
     enum receiver_kind kind = (enum receiver_kind)random_choose(&trial->seed, RECEIVER_KINDS);
@@ -82,8 +81,7 @@ void turn_towards(struct surfel *receiver, const double to_light[3], double angl
 /* Light comes in at 90 degrees to 1e-9 over the receiver's horizon. */
 void row_grazing_receiver(struct trial *trial) {
   struct slab slab = any_slab(trial, trial_distance(trial), any_fill(trial));
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   for (int k = 0; k < EACH; ++k) {
     double z = random_log(&trial->seed, 0.1, 1e6), to_light[3];
     struct surfel receiver = aimed_receiver(&slab, z, RECEIVER_GENERAL, &trial->seed);
@@ -154,8 +152,7 @@ void row_peak(struct trial *trial) {
   for (int axis = 0; axis < SLAB_AXES; ++axis) at[axis] = random_choose(&trial->seed, grid[axis]);
   float *sample = slab_at(&slab, at[0], at[1], at[2], at[3]);
   sample[0] = 1, sample[1] = 0.5f, sample[2] = 0.25f;
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   for (int k = 0; k < 2; ++k) {
     double z = random_log(&trial->seed, 0.1, 1e3), from[2], p[2];
     for (int axis = 0; axis < 2; ++axis) {

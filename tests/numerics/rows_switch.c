@@ -106,8 +106,7 @@ void row_switches(struct trial *trial) {
   const double distance =
       random_choose(&trial->seed, 2) ? INFINITY : random_log(&trial->seed, 0.3, 10);
   struct slab slab = rough_slab(grid, distance, ordinary, FRAME_PLAIN, FILL_UNIFORM, trial->seed);
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   const struct way way = any_way(trial, &slab);
   struct done before = sum(&lamp, method, &way, 0);
   for (int k = 1; k <= STEPS; ++k) {
@@ -126,8 +125,7 @@ void row_random(struct trial *trial) {
   enum { SAMPLES = 400 };
   static const int grid[SLAB_AXES] = {2, 3, 4, 3};
   struct slab slab = rough_slab(grid, INFINITY, ordinary, FRAME_TURNED, FILL_EXTREME, trial->seed);
-  struct lamp lamp;
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   const struct surfel at =
       aimed_receiver(&slab, random_log(&trial->seed, 0.05, 100), RECEIVER_GENERAL, &trial->seed);
   const struct receiver receiver = receiver_at(&at);

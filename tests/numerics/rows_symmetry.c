@@ -58,8 +58,8 @@ void row_powers(struct trial *trial) {
   scale_lengths(&scaled, &far, ldexp(1, lengths));
   for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k)
     scaled.rgb[k] = ldexpf(scaled.rgb[k], samples);
-  lamp_open(&lamps[0], &slab);
-  lamp_open(&lamps[1], &scaled);
+  lamps[0] = lamp_open(&slab);
+  lamps[1] = lamp_open(&scaled);
   for (int k = 0; k < NUMERICS_METHODS; ++k) {
     double once[3], more[3];
     if (lamp_sum_any(&lamps[0], k, &receiver, once) && lamp_sum_any(&lamps[1], k, &far, more))
@@ -73,9 +73,8 @@ void row_powers(struct trial *trial) {
 void row_units(struct trial *trial) {
   struct slab slab = any_slab(trial, (enum frame)random_choose(&trial->seed, 3));
   struct surfel receiver = any_receiver(trial, &slab);
-  struct lamp lamp;
   scale_lengths(&slab, &receiver, pow(10, random_between(&trial->seed, -150, 150)));
-  lamp_open(&lamp, &slab);
+  struct lamp lamp = lamp_open(&slab);
   trial_hold(trial, &lamp, &receiver);
   lamp_close(&lamp);
 }
@@ -144,8 +143,8 @@ void row_symmetry(struct trial *trial) {
   const int which = 1 + random_choose(&trial->seed, 3);
   struct lamp lamps[2];
   transform(&slab, which & 1, which & 2, &turned, &other);
-  lamp_open(&lamps[0], &slab);
-  lamp_open(&lamps[1], &turned);
+  lamps[0] = lamp_open(&slab);
+  lamps[1] = lamp_open(&turned);
   for (int k = 0; k < NUMERICS_METHODS; ++k) {
     const enum gather_method method = (enum gather_method)k;
     double a[3], b[3];
@@ -169,7 +168,7 @@ void row_superposition(struct trial *trial) {
     slabs[0].rgb[k] = rintf(1024 * slabs[0].rgb[k]) / 1024;
     slabs[2].rgb[k] = slabs[0].rgb[k] - 2 * slabs[1].rgb[k];
   }
-  for (int k = 0; k < 3; ++k) lamp_open(&lamps[k], &slabs[k]);
+  for (int k = 0; k < 3; ++k) lamps[k] = lamp_open(&slabs[k]);
   for (int k = 0; k < NUMERICS_METHODS; ++k) {
     const enum gather_method method = (enum gather_method)k;
     double got[3][3], sum[3], most = 0;

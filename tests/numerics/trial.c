@@ -60,16 +60,17 @@ static void find_most(const struct slab *slab, struct lamp *lamp) {
   lamp->hemisphere = most * acos(-1);
 }
 
-void lamp_open(struct lamp *lamp, const struct slab *slab) {
+struct lamp lamp_open(const struct slab *slab) {
   struct error error = {{0}};
   const size_t floats = 3 * slab_sample_count(slab);
-  *lamp = (struct lamp){.slab = *slab, .positive = true};
-  find_most(slab, lamp);
-  for (size_t k = 0; k < floats; ++k) lamp->positive = lamp->positive && slab->rgb[k] >= 0;
-  lamp->light = load_light(slab, 1);
-  if (gather_prepare(&lamp->light, 1, GATHER_LEVELS, 0, 1, &lamp->levels, &error) != RESULT_OK ||
-      gather_prepare(&lamp->light, 1, GATHER_CUT, 0, 1, &lamp->trees, &error) != RESULT_OK)
+  struct lamp lamp = {.slab = *slab, .positive = true};
+  find_most(slab, &lamp);
+  for (size_t k = 0; k < floats; ++k) lamp.positive = lamp.positive && slab->rgb[k] >= 0;
+  lamp.light = load_light(slab, 1);
+  if (gather_prepare(&lamp.light, 1, GATHER_LEVELS, 0, 1, &lamp.levels, &error) != RESULT_OK ||
+      gather_prepare(&lamp.light, 1, GATHER_CUT, 0, 1, &lamp.trees, &error) != RESULT_OK)
     fail_msg("%s", error.text);
+  return lamp;
 }
 
 void lamp_close(struct lamp *lamp) {
