@@ -223,6 +223,16 @@ const char *chain_log(void) {
   return text;
 }
 
+void chain_text(const char *name, const char *mode, const char *format, ...) {
+  FILE *file = fopen(chain_path(name), mode);
+  va_list arguments;
+  assert_non_null(file);
+  va_start(arguments, format);
+  vfprintf(file, format, arguments);
+  va_end(arguments);
+  assert_int_equal(fclose(file), 0);
+}
+
 /* An error is at the end, below what POV-Ray prints first. */
 static const char *log_tail(void) {
   const char *text = chain_log();
@@ -245,18 +255,16 @@ void chain_include(const struct slab *pages, int count, const char *name, const 
 }
 
 void chain_scene(const struct chain_plane *plane, double pigment, const char *lights) {
-  FILE *file = fopen(chain_path("scene.pov"), "w");
-  assert_non_null(file);
   const double *p = plane->center, *n = plane->normal, *a = plane->across, *d = plane->down;
-  fprintf(file,
-          "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
-          "camera { orthographic location <%.17g, %.17g, %.17g> direction <%.17g, %.17g, %.17g>\n"
-          "  right <%.17g, %.17g, %.17g> up <%.17g, %.17g, %.17g> }\n"
-          "plane { <%.17g, %.17g, %.17g>, %.17g\n"
-          "  pigment { rgb %.9g } finish { diffuse 1 ambient 0 } }\n%s\n",
-          p[0] + 50 * n[0], p[1] + 50 * n[1], p[2] + 50 * n[2], -n[0], -n[1], -n[2], a[0], a[1],
-          a[2], -d[0], -d[1], -d[2], n[0], n[1], n[2], chain_dot(p, n), pigment, lights);
-  assert_int_equal(fclose(file), 0);
+  chain_text(
+      "scene.pov", "w",
+      "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
+      "camera { orthographic location <%.17g, %.17g, %.17g> direction <%.17g, %.17g, %.17g>\n"
+      "  right <%.17g, %.17g, %.17g> up <%.17g, %.17g, %.17g> }\n"
+      "plane { <%.17g, %.17g, %.17g>, %.17g\n"
+      "  pigment { rgb %.9g } finish { diffuse 1 ambient 0 } }\n%s\n",
+      p[0] + 50 * n[0], p[1] + 50 * n[1], p[2] + 50 * n[2], -n[0], -n[1], -n[2], a[0], a[1], a[2],
+      -d[0], -d[1], -d[2], n[0], n[1], n[2], chain_dot(p, n), pigment, lights);
 }
 
 size_t chain_object(const char *arguments, const double matrix[12], char *sdl, size_t size) {
@@ -267,15 +275,14 @@ size_t chain_object(const char *arguments, const double matrix[12], char *sdl, s
   return length;
 }
 
-void chain_place(const struct chain_lamp *lamp, char *sdl, size_t size) {
-  char arguments[64];
-  snprintf(arguments, sizeof arguments, "%.17g, %.17g", lamp->scale, lamp->gain);
-  chain_object(arguments, lamp->matrix, sdl, size);
-}
-
-void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_t size) {
-  snprintf(sdl, size, "#include \"lamp.inc\"\n");
-  for (int k = 0; k < count; ++k) chain_place(&lamps[k], sdl + strlen(sdl), size - strlen(sdl));
+const char *chain_placed(const struct chain_lamp *lamps, int count) {
+  static char sdl[20 * 512] = "#include \"lamp.inc\"\n";
+  char arguments[64], *end = strchr(sdl, '\n') + 1;
+  for (int k = 0; k < count; ++k) {
+    snprintf(arguments, sizeof arguments, "%.17g, %.17g", lamps[k].scale, lamps[k].gain);
+    end += chain_object(arguments, lamps[k].matrix, end, sizeof sdl - (size_t)(end - sdl));
+  }
+  return sdl;
 }
 
 int chain_povray(void) {

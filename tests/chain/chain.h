@@ -82,6 +82,16 @@ const char *chain_path(const char *name);
  * Returns its exit status. */
 int chain_run(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* One that must succeed: else the test fails with its log. */
+#define chain_must(...)                                                                            \
+  do                                                                                               \
+    if (chain_run(__VA_ARGS__) != 0) fail_msg("%s", chain_log());                                  \
+  while (0)
+
+/* Writes a text to a file there ("w"), or appends it ("a"). */
+void chain_text(const char *name, const char *mode, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* The log with all runs of blanks as one, since POV-Ray wraps its lines. */
 const char *chain_log(void);
 
@@ -96,11 +106,10 @@ void chain_scene(const struct chain_plane *plane, double pigment, const char *li
 /* SDL that includes "lamp.inc" and shows its lamp, of the Scale and Gain of a string. */
 #define CHAIN_LIT(ARGUMENTS) "#include \"lamp.inc\"\nobject { Test_Lamp_Canned(" ARGUMENTS ") }"
 
-/* The SDL that places "Test_Lamp_Canned" of these arguments, and its length; as `lamp` says; and
- * that includes "lamp.inc" and places several. */
+/* The SDL that places "Test_Lamp_Canned" of these arguments, and its length. */
 size_t chain_object(const char *arguments, const double matrix[12], char *sdl, size_t size);
-void chain_place(const struct chain_lamp *lamp, char *sdl, size_t size);
-void chain_place_all(const struct chain_lamp *lamps, int count, char *sdl, size_t size);
+/* SDL that includes "lamp.inc" and places lamps; valid until the next call. */
+const char *chain_placed(const struct chain_lamp *lamps, int count);
 
 /* Renders scene.pov and returns POV-Ray's exit status; or reads what it made. */
 int chain_povray(void);

@@ -45,14 +45,11 @@ static double correlation(const struct picture *picture, int flip_x, int flip_y)
 }
 
 void letter_render(const char *lights, struct picture *picture) {
-  FILE *file = fopen(chain_path("scene.pov"), "w");
-  assert_non_null(file);
-  fprintf(file,
-          "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
-          "camera { orthographic location -3*z direction z right 2*x up 2*y }\n"
-          "plane { -z, -1 pigment { rgb 1 } finish { diffuse 1 ambient 0 } }\n%s\n",
-          lights);
-  assert_int_equal(fclose(file), 0);
+  chain_text("scene.pov", "w",
+             "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
+             "camera { orthographic location -3*z direction z right 2*x up 2*y }\n"
+             "plane { -z, -1 pigment { rgb 1 } finish { diffuse 1 ambient 0 } }\n%s\n",
+             lights);
   chain_render(picture);
 }
 

@@ -110,11 +110,9 @@ static struct cluster fit(const struct slab *pages, int count, int lights) {
 static void compare(const char *what, const struct chain_lamp *lamps, int count,
                     const struct cluster *cluster, int page, double distance) {
   static double direct[3 * CHAIN_PIXELS];
-  char sdl[2048];
   struct chain_plane plane = chain_facing(&lamps[0], page, distance);
-  chain_place_all(lamps, count, sdl, sizeof sdl);
   sum_lights(lamps, count, cluster, 1 << 20, &plane, direct);
-  double rmse = chain_error_of(&plane, 1, sdl, direct);
+  double rmse = chain_error_of(&plane, 1, chain_placed(lamps, count), direct);
   print_message("%-32s %.2g\n", what, rmse);
   if (!(rmse <= exact)) fail_msg("%s: relative RMSE %g", what, rmse);
 }
@@ -122,11 +120,9 @@ static void compare(const char *what, const struct chain_lamp *lamps, int count,
 /* The error that the header states holds. */
 static void compare_slab(const char *what, const struct slab *slab, double distance,
                          double stated) {
-  char sdl[1024];
   struct chain_lamp lamp = chain_lamp_of(slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, distance);
-  chain_place_all(&lamp, 1, sdl, sizeof sdl);
-  double rmse = chain_error(&lamp, 1, &plane, 1, sdl);
+  double rmse = chain_error(&lamp, 1, &plane, 1, chain_placed(&lamp, 1));
   print_message("%-32s %.3g, stated %.3g\n", what, rmse, stated);
   if (!(rmse <= slack * stated + more)) fail_msg("%s: %g, stated %g", what, rmse, stated);
 }
@@ -234,8 +230,7 @@ TEST(test_fewer_points) {
   struct chain_plane plane = chain_facing(&lamp, 0, 0.8);
   for (int most = 1; most <= 2; ++most) {
     char sdl[1024];
-    int length = snprintf(sdl, sizeof sdl, "#declare Test_Lamp_Lights = %d;\n", most);
-    chain_place_all(&lamp, 1, sdl + length, sizeof sdl - (size_t)length);
+    snprintf(sdl, sizeof sdl, "#declare Test_Lamp_Lights = %d;\n%s", most, chain_placed(&lamp, 1));
     sum_lights(&lamp, 1, &cluster, most, &plane, direct);
     assert_true(chain_error_of(&plane, 1, sdl, direct) < exact);
   }
@@ -277,9 +272,7 @@ TEST(test_point) {
     memcpy(lamp.matrix, mirrored, sizeof mirrored);
     lamp.scale = 0.0041;
     struct chain_plane plane = chain_facing(&lamp, 0, 20);
-    char sdl[1024];
-    chain_place_all(&lamp, 1, sdl, sizeof sdl);
-    double rmse = chain_error(&lamp, 1, &plane, 1, sdl);
+    double rmse = chain_error(&lamp, 1, &plane, 1, chain_placed(&lamp, 1));
     print_message("%-32s %.3g\n", "  mirrored, Scale 0.0041", rmse);
     assert_true(rmse <= slack * point.error_at + more);
     point_free(&point);

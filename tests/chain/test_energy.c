@@ -74,9 +74,7 @@ static void write_receivers(void) {
 }
 
 static void flux_by_method(const char *method, double flux[3]) {
-  if (chain_run("\"$RENDERSLAB\" irradiance -q --light lamp.exr --method %s <receivers >sums",
-                method))
-    fail_msg("%s", chain_log());
+  chain_must("\"$RENDERSLAB\" irradiance -q --light lamp.exr --method %s <receivers >sums", method);
   FILE *file = fopen(chain_path("sums"), "r");
   assert_non_null(file);
   flux[0] = flux[1] = flux[2] = 0;
@@ -120,12 +118,8 @@ static void expect(const char *what, const double flux[3], const double right[3]
 
 TEST(test_bake) {
   double right[3], flux[3], known = known_flux();
-  FILE *file = fopen(chain_path("lamp.pov"), "w");
-  assert_non_null(file);
-  fputs(lamp, file);
-  assert_int_equal(fclose(file), 0);
-  if (chain_run("\"$BAKESLAB\" bake lamp.pov -o lamp.exr -q --uv 8x8 --st 24x24 --jobs 1"))
-    fail_msg("%s", chain_log());
+  chain_text("lamp.pov", "w", "%s", lamp);
+  chain_must("\"$BAKESLAB\" bake lamp.pov -o lamp.exr -q --uv 8x8 --st 24x24 --jobs 1");
   for (int c = 0; c < 3; ++c) right[c] = radiance[c] * known;
   flux_of_slab("lamp.exr", flux);
   expect("bake, against the closed form", flux, right, 0.4);
@@ -147,8 +141,7 @@ TEST(test_convert) {
   double right[3], flux[3];
   flux_of_slab("lamp.exr", right);
   for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
-    if (chain_run("\"$BAKESLAB\" convert lamp.exr -o %s %s", rows[k].file, rows[k].options))
-      fail_msg("%s", chain_log());
+    chain_must("\"$BAKESLAB\" convert lamp.exr -o %s %s", rows[k].file, rows[k].options);
     flux_of_slab(rows[k].file, flux);
     expect(rows[k].what, flux, right, rows[k].most);
   }
@@ -188,9 +181,8 @@ TEST(test_povray) {
   flux_of_slab("lamp.exr", right);
   for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
     char sdl[256];
-    if (chain_run("cp lamp.exr slab.exr && \"$BAKESLAB\" include slab.exr -o light.inc %s",
-                  rows[k].options))
-      fail_msg("%s", chain_log());
+    chain_must("cp lamp.exr slab.exr && \"$BAKESLAB\" include slab.exr -o light.inc %s",
+               rows[k].options);
     snprintf(sdl, sizeof sdl, "%s#include \"light.inc\"\nobject { Test_Lamp_Canned(1, 1) }\n",
              rows[k].declare);
     flux_by_povray(sdl, flux);

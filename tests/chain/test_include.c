@@ -13,13 +13,22 @@ static const double square[2] = {1, 1}, window[4] = {-1.5, 1.5, -1.5, 1.5};
 
 #define LIT CHAIN_LIT("1, 1")
 
-static struct slab rough_slab(void) {
-  return chain_slab(samples, square, window, INFINITY, 0, 11);
+/* The tests' slab, made anew by each, and its lamp.inc. */
+static struct slab slab;
+
+static void make_slab(void) {
+  slab_free(&slab);
+  slab = chain_slab(samples, square, window, INFINITY, 0, 11);
+}
+
+static void make_lamp(void) {
+  make_slab();
+  chain_include(&slab, 1, "lamp", "");
 }
 
 /* The error of the picture that the lamp, so large, makes of a plane one width away. */
-static double picture_error(const struct slab *slab, double scale, const char *sdl) {
-  struct chain_lamp lamp = chain_lamp_of(slab, 1, scale);
+static double picture_error(const struct slab *lit, double scale, const char *sdl) {
+  struct chain_lamp lamp = chain_lamp_of(lit, 1, scale);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
   return chain_error(&lamp, 1, &plane, 1, sdl);
 }
@@ -33,8 +42,7 @@ static void expect_refusal(const char *arguments, int status, const char *text) 
 
 /* Below the smallest Scale the lamp stops with it; there it is still right. */
 TEST(test_tolerance) {
-  struct slab slab = rough_slab();
-  chain_include(&slab, 1, "lamp", "");
+  make_lamp();
   chain_says(&slab, CHAIN_LIT("0.0148, 1"), 1,
              "Test_Lamp_Canned: too small for POV-Ray's shadow tolerance with 4x4 lights");
   const char *advice = strstr(chain_log(), "use Scale >= ");
@@ -48,38 +56,32 @@ TEST(test_tolerance) {
   assert_true(picture_error(&means, 0.0076,
                             "#declare Test_Lamp_Lights = 2;\n" CHAIN_LIT("0.0076, 1")) < 5e-4);
   slab_free(&means);
-  slab_free(&slab);
 }
 
 TEST(test_macro_arguments) {
-  struct slab slab = rough_slab();
-  chain_include(&slab, 1, "lamp", "");
+  make_lamp();
   chain_says(&slab, CHAIN_LIT("0, 1"), 1, "Test_Lamp_Canned: Scale is 0.0000, must be positive");
   chain_says(&slab, CHAIN_LIT("-1, 1"), 1, "Test_Lamp_Canned: Scale is -1.0000, must be positive");
   chain_says(&slab, "#declare Test_Lamp_Lights = 0;\n" CHAIN_LIT("1, 1"), 1,
              "Test_Lamp_Canned: Test_Lamp_Lights is 0.00, must be at least 1");
-  slab_free(&slab);
 }
 
 /* An image that is missing, elsewhere, or another lamp's. */
 TEST(test_image) {
-  struct slab slab = rough_slab();
-  chain_include(&slab, 1, "lamp", "");
-  assert_int_equal(chain_run("mkdir other && mv lamp.exr other/"), 0);
+  make_lamp();
+  chain_must("mkdir other && mv lamp.exr other/");
   chain_says(&slab, LIT, 1, "Test_Lamp_Canned: no image lamp.exr");
   assert_true(picture_error(&slab, 1, "#declare Test_Lamp_Sheet_File = \"other/lamp.exr\";\n" LIT) <
               5e-4);
   slab.rgb[0] += 1;
   chain_include(&slab, 1, "lamp2", "");
-  assert_int_equal(chain_run("mv lamp2.exr lamp.exr"), 0);
+  chain_must("mv lamp2.exr lamp.exr");
   chain_says(&slab, LIT, 1, "lamp.exr is not the image that was made with this include");
-  slab_free(&slab);
 }
 
 /* Including a lamp twice is fine; another one under its name is not. */
 TEST(test_two_of_a_name) {
-  struct slab slab = rough_slab();
-  chain_include(&slab, 1, "lamp", "");
+  make_lamp();
   assert_true(
       picture_error(
           &slab, 1,
@@ -94,30 +96,28 @@ TEST(test_two_of_a_name) {
   assert_true(picture_error(&slab, 1,
                             "#include \"lamp.inc\"\n#include \"moved.inc\"\n"
                             "object { Other_Canned(1, 1) }") < 5e-4);
-  slab_free(&slab);
 }
 
 /* With another assumed_gamma the lamp keeps its radiance in the numbers that
  * POV-Ray computes with, which the picture then decodes. */
 TEST(test_gamma) {
   static double direct[3 * CHAIN_PIXELS];
-  struct slab slab = rough_slab();
+  make_slab();
   struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
   struct picture picture;
   chain_include(&slab, 1, "lamp", "");
   chain_scene(&plane, 1, LIT);
-  assert_int_equal(chain_run("sed -i 's/assumed_gamma 1.0/assumed_gamma 2.2/' scene.pov"), 0);
+  chain_must("sed -i 's/assumed_gamma 1.0/assumed_gamma 2.2/' scene.pov");
   chain_render(&picture);
   for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) picture.rgb[k] = (float)pow(picture.rgb[k], 1 / 2.2);
   chain_direct(&lamp, 1, &plane, direct);
   assert_true(chain_rmse(&picture, direct) < 1e-3);
   picture_free(&picture);
-  slab_free(&slab);
 }
 
 TEST(test_command_line) {
-  struct slab slab = rough_slab();
+  make_slab();
   chain_write("slab.exr", &slab, 1);
   expect_refusal("slab.exr -o out.inc --mode blob", 2, "--mode blob: must be sheet, cluster");
   expect_refusal("slab.exr -o out.inc --lights 0", 2, "--lights 0: must be a whole number from 1");
@@ -132,10 +132,9 @@ TEST(test_command_line) {
   expect_refusal("slab.exr -o out.inc --name a234567890123456789012345", 1,
                  "is longer than 24 characters");
   /* Where the image cannot be put in place there is no include either. */
-  assert_int_equal(chain_run("mkdir other2 other2/lamp.exr && touch other2/lamp.exr/x"), 0);
+  chain_must("mkdir other2 other2/lamp.exr && touch other2/lamp.exr/x");
   assert_int_equal(chain_run("\"$BAKESLAB\" include slab.exr -o other2/lamp.inc"), 1);
-  assert_int_equal(chain_run("test \"$(ls -A other2)\" = lamp.exr"), 0);
-  slab_free(&slab);
+  chain_must("test \"$(ls -A other2)\" = lamp.exr");
 }
 
 /* The image beside the include would replace the slab, or a link would lead there. */
@@ -146,23 +145,21 @@ TEST(test_own_slab) {
       "include own/lamp.exr -o own/hard.inc",    "include own/lamp.exr -o own/script.inc",
       "include - -o own/lamp.inc <own/lamp.exr",
   };
-  struct slab slab = rough_slab();
+  make_slab();
   chain_write("slab.exr", &slab, 1);
-  assert_int_equal(chain_run("mkdir own && cp slab.exr own/lamp.exr && cd own && "
-                             "ln -s lamp.exr linked.exr && ln lamp.exr hard.exr && "
-                             "ln -s lamp.exr script.inc"),
-                   0);
+  chain_must("mkdir own && cp slab.exr own/lamp.exr && cd own && "
+             "ln -s lamp.exr linked.exr && ln lamp.exr hard.exr && "
+             "ln -s lamp.exr script.inc");
   for (size_t k = 0; k < sizeof commands / sizeof *commands; ++k) {
     if (chain_run("\"$BAKESLAB\" %s", commands[k]) != 1) fail_msg("not refused: %s", commands[k]);
     if (!strstr(chain_log(), "choose another name")) fail_msg("%s", chain_log());
-    assert_int_equal(chain_run("cmp slab.exr own/lamp.exr && test ! -e own/lamp.inc"), 0);
+    chain_must("cmp slab.exr own/lamp.exr && test ! -e own/lamp.inc");
   }
-  assert_int_equal(chain_run("\"$BAKESLAB\" include own/lamp.exr -o own/other.inc"), 0);
-  slab_free(&slab);
+  chain_must("\"$BAKESLAB\" include own/lamp.exr -o own/other.inc");
 }
 
 TEST(test_radiance) {
-  struct slab slab = rough_slab();
+  make_slab();
   oracle_sample(&slab, 0, 0, 3, 2)[1] = -0.5F;
   chain_write("slab.exr", &slab, 1);
   expect_refusal("slab.exr -o out.inc", 1,
@@ -171,7 +168,6 @@ TEST(test_radiance) {
   memset(slab.rgb, 0, sizeof(float) * 3 * 64 * 64);
   chain_write("slab.exr", &slab, 1);
   expect_refusal("slab.exr -o out.inc", 1, "slab.exr: all radiance is zero");
-  slab_free(&slab);
 }
 
 /* Text of a slab file stays text: it ends no macro and no comment. */
@@ -179,7 +175,7 @@ TEST(test_injection) {
   static const char *const housings[] = {
       "sphere { 0, 1 } #end #fopen F \\\"made\\\" write #macro X()", "#fopen F \\\"made\\\" write",
       "/* \\n #fopen F \\\"made\\\" write"};
-  struct slab slab = rough_slab();
+  make_slab();
   struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
   struct picture picture;
@@ -189,60 +185,53 @@ TEST(test_injection) {
     assert_int_equal(slab_json_set(&slab, "provenance", provenance, NULL), RESULT_OK);
     chain_include(&slab, 1, "lamp", "");
     assert_non_null(strstr(chain_log(), "lamp-slab.exr: note: its housing is left out"));
-    assert_int_equal(chain_run("grep -q 'without a housing that could be used' lamp.inc"), 0);
+    chain_must("grep -q 'without a housing that could be used' lamp.inc");
     chain_scene(&plane, 1, LIT);
     chain_render(&picture);
     picture_free(&picture);
-    assert_int_equal(chain_run("test ! -e made"), 0);
+    chain_must("test ! -e made");
   }
   /* The name must be an identifier; the command's line ends are not printed. */
   snprintf(slab.name, sizeof slab.name, "lamp\n#error \"x\"");
   chain_write("slab.exr", &slab, 1);
   expect_refusal("slab.exr -o out.inc", 1, "is no identifier");
   expect_refusal("slab.exr -o \"$(printf 'out\\n.inc')\"", 2, "control characters");
-  assert_int_equal(chain_run("\"$BAKESLAB\" include slab.exr --name a --name b "
-                             "-o 'l\"#.inc' --lights \"$(printf '1')\""),
-                   0);
-  assert_int_equal(chain_run("grep -v '^//' 'l\"#.inc' | grep -F 'l\\\"#.exr'"), 0);
-  slab_free(&slab);
+  chain_must("\"$BAKESLAB\" include slab.exr --name a --name b "
+             "-o 'l\"#.inc' --lights \"$(printf '1')\"");
+  chain_must("grep -v '^//' 'l\"#.inc' | grep -F 'l\\\"#.exr'");
 }
 
 /* A lamp of saturated colours comes through LogLuv, the default, into the picture. */
 TEST(test_saturated) {
   static const float colours[3][3] = {{1, 0, 0}, {0, 0, 1}, {1, 0.3F, 0}};
   for (int n = 0; n < 3; ++n) {
-    struct slab slab = rough_slab();
+    make_slab();
     struct error error;
     for (size_t k = 0; k < (size_t)3 * 64 * 64; ++k) slab.rgb[k] = slab.rgb[k / 3 * 3];
     for (size_t k = 0; k < (size_t)3 * 64 * 64; ++k) slab.rgb[k] *= colours[n][k % 3];
     if (slab_file_write(chain_path("lamp.tif"), &slab, 1, SLAB_PRECISION_LOGLUV, &error) !=
         RESULT_OK)
       fail_msg("%s", error.text);
-    if (chain_run("\"$BAKESLAB\" include lamp.tif -o lamp.inc") != 0) fail_msg("%s", chain_log());
+    chain_must("\"$BAKESLAB\" include lamp.tif -o lamp.inc");
     assert_true(picture_error(&slab, 1, LIT) < 0.02);
-    slab_free(&slab);
   }
 }
 
 /* The longest name that is allowed, and its capitals. */
 TEST(test_name) {
-  struct slab slab = rough_slab();
+  make_slab();
   chain_include(&slab, 1, "lamp", "--name a_b2_cdefghijklmnopqrstu");
   assert_true(picture_error(&slab, 1,
                             "#include \"lamp.inc\"\n"
                             "object { A_B2_Cdefghijklmnopqrstu_Canned(1, 1) }") < 5e-4);
-  slab_free(&slab);
 }
 
 /* Pictures of the scene with the lamp, shining nothing, and without it. */
 static void expect_unseen(const char *scene, const char *what) {
   struct picture pictures[2];
   for (int with = 0; with < 2; ++with) {
-    FILE *file = fopen(chain_path("scene.pov"), "w");
-    assert_non_null(file);
-    fprintf(file, "#version 3.7;\n#include \"lamp.inc\"\n%s\n%s\n", scene,
-            with ? "object { Test_Lamp_Canned(1, 0) rotate 20*x }" : "");
-    assert_int_equal(fclose(file), 0);
+    chain_text("scene.pov", "w", "#version 3.7;\n#include \"lamp.inc\"\n%s\n%s\n", scene,
+               with ? "object { Test_Lamp_Canned(1, 0) rotate 20*x }" : "");
     chain_render(&pictures[with]);
   }
   for (int k = 0; k < 3 * CHAIN_PIXELS; ++k)
@@ -254,8 +243,7 @@ static void expect_unseen(const char *scene, const char *what) {
 }
 
 TEST(test_unseen) {
-  struct slab slab = rough_slab();
-  chain_include(&slab, 1, "lamp", "");
+  make_lamp();
   expect_unseen("global_settings { assumed_gamma 1 } background { rgb <1, 2, 3> }\n"
                 "camera { location -3*z look_at 0 }",
                 "itself");
@@ -268,12 +256,11 @@ TEST(test_unseen) {
                 "background { rgb 1 } camera { location <0, 3, -3> look_at 0 }\n"
                 "plane { y, -0.7 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }",
                 "by radiosity");
-  slab_free(&slab);
 }
 
 /* A housing in the slab's provenance is what the case macro draws. */
 TEST(test_housing) {
-  struct slab slab = rough_slab();
+  make_slab();
   struct picture picture;
   chain_include(&slab, 1, "lamp", "");
   chain_says(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Case() }", 1,
@@ -291,7 +278,6 @@ TEST(test_housing) {
   const float *middle = picture.rgb + 3 * (CHAIN_SIZE / 2 * CHAIN_SIZE + CHAIN_SIZE / 2);
   assert_true(middle[0] < 0.01F && middle[1] > 0.99F && middle[2] < 0.01F);
   picture_free(&picture);
-  slab_free(&slab);
 }
 
 int main(void) {

@@ -6,23 +6,10 @@
 #include "chain.h"
 #include "letter.h"
 
-static void write_file(const char *name, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-static void write_file(const char *name, const char *format, ...) {
-  FILE *file = fopen(chain_path(name), "a");
-  va_list arguments;
-  assert_non_null(file);
-  va_start(arguments, format);
-  vfprintf(file, format, arguments);
-  va_end(arguments);
-  assert_int_equal(fclose(file), 0);
-}
-
 /* lamp.pov to lamp.inc and lamp.exr. */
 static void bake(const char *options) {
-  assert_int_equal(chain_run("\"$BAKESLAB\" bake lamp.pov -o slab.exr -q %s", options), 0);
-  assert_int_equal(chain_run("\"$BAKESLAB\" include slab.exr -o lamp.inc"), 0);
+  chain_must("\"$BAKESLAB\" bake lamp.pov -o slab.exr -q %s", options);
+  chain_must("\"$BAKESLAB\" include slab.exr -o lamp.inc");
 }
 
 /* ---- Chirality: what a small opening projects ---- */
@@ -31,17 +18,16 @@ static void bake(const char *options) {
  * a projector is: the opening turns them back. The wall is 50 units in front of it. */
 static void project(const char *u, const char *v, double st_distance) {
   struct picture picture;
-  remove(chain_path("lamp.pov"));
-  write_file("lamp.pov",
+  chain_text("lamp.pov", "w",
              "#version 3.7;\n#include \"canned.inc\"\nCanned_Lamp(\"letter\")\nCanned_Needs(\"\")\n"
              "Canned_Slab(<0, 0, 0>, %s, %s, <0, 0, 1>, <-1, 1, -1, 1>, %g)\nunion {\n",
              u, v, st_distance);
   for (int row = 0; row < LETTER_STROKES; ++row)
     for (int column = 0; column < LETTER_STROKES; ++column)
       if (letter_cell(column, row))
-        write_file("lamp.pov", "  box { <%d, %d, 0>, <%d, %d, 1> }\n", column, LETTER_STROKES - row,
-                   column + 1, LETTER_STROKES - row - 1);
-  write_file("lamp.pov",
+        chain_text("lamp.pov", "a", "  box { <%d, %d, 0>, <%d, %d, 1> }\n", column,
+                   LETTER_STROKES - row, column + 1, LETTER_STROKES - row - 1);
+  chain_text("lamp.pov", "a",
              "  translate <-%d/2, -%d/2, 0> scale <200/%d, 200/%d, 1> rotate 180*z translate "
              "-101*z\n  pigment { rgb 1 } finish { emission 1 diffuse 0 }\n}\n",
              LETTER_STROKES, LETTER_STROKES, LETTER_STROKES, LETTER_STROKES);
@@ -76,8 +62,7 @@ static const char barred_lamp[] =
 
 /* The floor 30 units below it, as far as any of its light gets; the camera is in between. */
 static void render_floor(const char *lights, struct picture *picture) {
-  remove(chain_path("scene.pov"));
-  write_file("scene.pov",
+  chain_text("scene.pov", "w",
              "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n%s\n"
              "plane { y, -30 pigment { rgb 1 } finish { diffuse 1 ambient 0 } }\n"
              "camera { orthographic location <-8, -10, 5> direction -y right 100*x up 80*z }\n",
@@ -112,11 +97,10 @@ static double mean(const struct picture *picture) {
 
 TEST(test_canned) {
   struct picture lamp, canned;
-  remove(chain_path("lamp.pov"));
-  write_file("lamp.pov", "%s", barred_lamp);
+  chain_text("lamp.pov", "w", "%s", barred_lamp);
   bake("--uv 10x8 --st 40x32 --rays 64");
   render_floor("#include \"lamp.inc\"\nobject { Barred_Canned(1, 1) }", &canned);
-  assert_int_equal(chain_run("cp \"$CANNED_INCLUDE\"/canned.inc ."), 0);
+  chain_must("cp \"$CANNED_INCLUDE\"/canned.inc .");
   render_floor("#include \"lamp.pov\"", &lamp);
   /* Nothing of the light misses the picture. */
   for (int k = 0; k < CHAIN_SIZE; ++k) {

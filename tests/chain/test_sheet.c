@@ -67,10 +67,8 @@ static void compare_setting(const struct setting *setting, uint64_t seed) {
   struct chain_lamp lamp = chain_lamp_of(&slab, 1, setting->scale);
   lamp.gain = setting->gain;
   struct chain_plane plane = chain_facing(&lamp, 0, setting->distance);
-  char sdl[1024];
-  chain_place_all(&lamp, 1, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
-  compare(setting->what, &lamp, 1, &plane, sdl);
+  compare(setting->what, &lamp, 1, &plane, chain_placed(&lamp, 1));
   slab_free(&slab);
 }
 
@@ -122,9 +120,8 @@ TEST(test_instances) {
   for (int c = 0; c < 3; ++c) lamps[1].matrix[9 + c] = 1.1 * slab.u[c] + 0.4 * slab.v[c];
   struct chain_plane plane = chain_facing(&lamps[0], 0, 1);
   char sdl[2048];
-  chain_place_all(lamps, 2, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
-  compare("two instances", lamps, 2, &plane, sdl);
+  compare("two instances", lamps, 2, &plane, chain_placed(lamps, 2));
   snprintf(sdl, sizeof sdl,
            "#include \"lamp.inc\"\n#declare Lamp = object { Test_Lamp_Canned(1, 1) }\n"
            "object { Lamp } object { Lamp translate <%.17g, %.17g, %.17g> }\n",
@@ -145,14 +142,13 @@ TEST(test_case) {
   lamps[0].case_height = height;
   const double away[2][3] = {{0.1, 0.2, -0.8}, {1.2, 0.1, -0.3}};
   struct chain_plane plane = chain_facing(&lamps[0], 0, 1);
-  char sdl[2048];
   chain_include(&slab, 1, "lamp", "");
   for (int k = 0; k < 2; ++k) {
     for (int c = 0; c < 3; ++c)
       lamps[1].matrix[9 + c] =
           away[k][0] * slab.u[c] + away[k][1] * slab.v[c] + away[k][2] * slab.normal[c];
-    chain_place_all(lamps, 2, sdl, sizeof sdl);
-    compare(k ? "a lamp beside and behind" : "a lamp behind", lamps, 2, &plane, sdl);
+    compare(k ? "a lamp beside and behind" : "a lamp behind", lamps, 2, &plane,
+            chain_placed(lamps, 2));
   }
   slab_free(&slab);
 }
@@ -161,8 +157,6 @@ TEST(test_case) {
 TEST(test_pages) {
   struct slab pages[2] = {small_slab(INFINITY, 3), small_slab(3, 4)};
   struct chain_lamp lamp = chain_lamp_of(pages, 2, 0.8);
-  char sdl[1024];
-  chain_place_all(&lamp, 1, sdl, sizeof sdl);
   for (int c = 0; c < 3; ++c) {
     pages[1].center[c] = pages[0].center[c];
     pages[1].u[c] = pages[0].u[c];
@@ -172,7 +166,8 @@ TEST(test_pages) {
   chain_include(pages, 2, "lamp", "");
   for (int page = 0; page < 2; ++page) {
     struct chain_plane plane = chain_facing(&lamp, page, 1);
-    compare(page ? "back to back, back" : "back to back, front", &lamp, 1, &plane, sdl);
+    compare(page ? "back to back, back" : "back to back, front", &lamp, 1, &plane,
+            chain_placed(&lamp, 1));
   }
   for (int c = 0; c < 3; ++c) {
     pages[1].center[c] += pages[0].u[c];
@@ -180,7 +175,7 @@ TEST(test_pages) {
   }
   chain_include(pages, 2, "lamp", "");
   struct chain_plane plane = chain_facing(&lamp, 0, 2);
-  compare("side by side", &lamp, 1, &plane, sdl);
+  compare("side by side", &lamp, 1, &plane, chain_placed(&lamp, 1));
   slab_free(&pages[0]);
   slab_free(&pages[1]);
 }
@@ -203,8 +198,7 @@ TEST(test_lights) {
     struct chain_lamp lamp = chain_lamp_of(&means, 1, 1);
     struct chain_plane plane = chain_facing(&lamp, 0, 1);
     char sdl[1024];
-    snprintf(sdl, sizeof sdl, "%s#include \"lamp.inc\"\n", cases[k].declare);
-    chain_place(&lamp, sdl + strlen(sdl), sizeof sdl - strlen(sdl));
+    snprintf(sdl, sizeof sdl, "%s%s", cases[k].declare, chain_placed(&lamp, 1));
     chain_include(&slab, 1, "lamp", cases[k].options);
     compare(cases[k].what, &lamp, 1, &plane, sdl);
     slab_free(&means);
@@ -222,11 +216,9 @@ TEST(test_black_views) {
           memset(oracle_sample(&slab, i, j, k, l), 0, 3 * sizeof(float));
   struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
-  char sdl[1024];
-  chain_place_all(&lamp, 1, sdl, sizeof sdl);
   chain_include(&slab, 1, "lamp", "");
-  assert_int_equal(chain_run("grep -q '4x3 *4 of 12' lamp.inc"), 0);
-  compare("black views", &lamp, 1, &plane, sdl);
+  chain_must("grep -q '4x3 *4 of 12' lamp.inc");
+  compare("black views", &lamp, 1, &plane, chain_placed(&lamp, 1));
   slab_free(&slab);
 }
 

@@ -49,11 +49,10 @@ TEST(test_scales) {
     chain_include(&slab, 1, "lamp", "");
     for (size_t k = 0; k < sizeof scales / sizeof *scales; ++k) {
       struct chain_lamp lamp = chain_lamp_of(&slab, 1, scales[k] * 0.0011 / height);
-      char sdl[1024], what[64];
-      chain_place_all(&lamp, 1, sdl, sizeof sdl);
+      char what[64];
       snprintf(what, sizeof what, "sheet%s, %g times the least Scale", d ? ", st plane" : "",
                scales[k]);
-      expect_sum(what, &lamp, 1, sdl);
+      expect_sum(what, &lamp, 1, chain_placed(&lamp, 1));
     }
     slab_free(&slab);
   }
@@ -67,10 +66,9 @@ TEST(test_far_off) {
   for (int small = 0; small < 2; ++small) {
     struct chain_lamp lamp = chain_lamp_of(&slab, 1, small ? 0.1 : 1);
     const double at[3] = {-0.4, 0.3, 0.866};
-    char sdl[1024];
     for (int c = 0; c < 3; ++c) lamp.matrix[9 + c] = 3000 * lamp.scale * at[c];
-    chain_place_all(&lamp, 1, sdl, sizeof sdl);
-    expect_sum(small ? "3000 widths of 0.1 off" : "3000 widths off", &lamp, 1, sdl);
+    expect_sum(small ? "3000 widths of 0.1 off" : "3000 widths off", &lamp, 1,
+               chain_placed(&lamp, 1));
   }
   slab_free(&slab);
 }
@@ -83,16 +81,13 @@ TEST(test_other_kinds) {
   for (int kind = 0; kind < 2; ++kind) {
     struct picture plain, picture;
     struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
-    char sdl[1024];
     double right[3 * CHAIN_PIXELS];
     chain_include(&slab, 1, "lamp", kinds[kind]);
-    chain_place_all(&lamp, 1, sdl, sizeof sdl);
-    render(&lamp, sdl, &plain);
+    render(&lamp, chain_placed(&lamp, 1), &plain);
     for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) right[k] = (double)plain.rgb[k];
     for (int n = 0; n < 3; ++n) {
       lamp.scale = scales[n];
-      chain_place_all(&lamp, 1, sdl, sizeof sdl);
-      render(&lamp, sdl, &picture);
+      render(&lamp, chain_placed(&lamp, 1), &picture);
       double rmse = chain_rmse(&picture, right);
       print_message("# %-32s %7g %.2g\n", kinds[kind], scales[n], rmse);
       assert_true(rmse <= tolerance);
@@ -135,20 +130,18 @@ TEST(test_gains) {
 TEST(test_ranges) {
   struct slab slab = make_slab(INFINITY, 6);
   struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
-  char sdl[1024];
   uint64_t seed = 9;
   size_t values = 3 * slab_sample_count(&slab);
   for (size_t k = 0; k < values; ++k) slab.rgb[k] = (float)random_log(&seed, 1e-5, 1e25);
   chain_include(&slab, 1, "lamp", "");
-  chain_place_all(&lamp, 1, sdl, sizeof sdl);
+  const char *sdl = chain_placed(&lamp, 1);
   lamp.gain = 1e-20;
   expect_sum("30 decades", &lamp, 1e-20, sdl);
   for (size_t k = 0; k < values; ++k) slab.rgb[k] = (float)random_between(&seed, 1, 2);
   oracle_sample(&slab, 1, 1, 4, 5)[1] = 1e5F;
   chain_include(&slab, 1, "lamp", "");
   lamp.gain = 1;
-  chain_place_all(&lamp, 1, sdl, sizeof sdl);
-  expect_sum("a peak beyond half floats", &lamp, 1, sdl);
+  expect_sum("a peak beyond half floats", &lamp, 1, chain_placed(&lamp, 1));
   slab_free(&slab);
 }
 
@@ -164,15 +157,12 @@ TEST(test_switches) {
   for (int kind = 0; kind < 3; ++kind) {
     struct picture plain, picture;
     struct error error;
-    char sdl[1024];
     chain_include(&slab, 1, "lamp", kinds[kind]);
-    chain_place_all(&lamp, 1, sdl, sizeof sdl);
-    render(&lamp, sdl, &plain);
+    render(&lamp, chain_placed(&lamp, 1), &plain);
     for (size_t k = kind == 2; k < sizeof switches / sizeof *switches; ++k) {
       double sum = 0, right = 0;
-      assert_int_equal(chain_run("povray +Iscene.pov +Oframe.exr +FE -A -D +W%d +H%d %s",
-                                 CHAIN_SIZE, CHAIN_SIZE, switches[k]),
-                       0);
+      chain_must("povray +Iscene.pov +Oframe.exr +FE -A -D +W%d +H%d %s", CHAIN_SIZE, CHAIN_SIZE,
+                 switches[k]);
       assert_int_equal(slab_exr_read(chain_path("frame.exr"), &picture, &error), RESULT_OK);
       if (!strstr(switches[k], "+A"))
         assert_memory_equal(picture.rgb, plain.rgb, sizeof(float) * 3 * CHAIN_PIXELS);
@@ -194,7 +184,6 @@ TEST(test_twenty) {
   enum { LAMPS = 20 };
   const int few[4] = {2, 2, 8, 8};
   const double square[2] = {1, 1};
-  static char sdl[LAMPS * 512];
   struct slab slab = chain_slab(few, square, window, INFINITY, 0, 8);
   double height = (1.0 / 2) / (2.0 / 8 * (8 + 2)); /* tiles of 10 x 10 texels meet there */
   struct chain_lamp lamps[LAMPS];
@@ -225,8 +214,8 @@ TEST(test_twenty) {
     } while (nearest < 0.55); /* cases do not meet */
   }
   chain_include(&slab, 1, "lamp", "");
-  chain_place_all(lamps, LAMPS, sdl, sizeof sdl);
-  expect_within(3e-3, "twenty lamps", lamps, LAMPS, 1, sdl); /* pixels on hard edges */
+  expect_within(3e-3, "twenty lamps", lamps, LAMPS, 1,
+                chain_placed(lamps, LAMPS)); /* pixels on hard edges */
   slab_free(&slab);
 }
 
