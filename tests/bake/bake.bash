@@ -71,6 +71,12 @@ wait_for_batch() {
   done
 }
 
+# begin_slow OPTION...: a bake of slow.pov that has a batch and runs on, as the process $!.
+begin_slow() {
+  BAKE_EXEC='exec' slow -o x.tif "$@" >log 2>&1 3>&- &
+  wait_for_batch x.tif.partial
+}
+
 # no_process_left TRIES: no POV-Ray of this test runs on, 20 tries a second.
 no_process_left() {
   local tries=$1

@@ -16,12 +16,10 @@ whole() {
 
 # Starts a bake of x.tif and ends it with a signal as soon as it has a batch.
 interrupt() {
-  BAKE_EXEC='exec' slow -o x.tif --jobs 1 >log 2>&1 3>&- &
-  local pid=$!
-  wait_for_batch x.tif.partial
-  kill "-$1" "$pid"
+  begin_slow --jobs 1
+  kill "-$1" $!
   local status=0
-  wait "$pid" || status=$?
+  wait $! || status=$?
   cat log
   [ "$status" -ne 0 ]
   [ ! -e x.tif ]
@@ -58,8 +56,7 @@ goes_on() {
   whole
   local delay
   for delay in 0.05 0.3 0.7 1.1 1.6; do
-    timeout -s KILL "$delay" "$BAKESLAB" bake slow.pov -o x.tif --uv 16x16 --st 8x8 --rays 40 --uniform \
-      --precision float >log 2>&1 || true
+    BAKE_EXEC="timeout -s KILL $delay" slow -o x.tif >log 2>&1 || true
   done
   slow -q -o x.tif
   same x.tif whole.tif
@@ -109,9 +106,8 @@ goes_on() {
 
 @test "a second bake of the same output is refused, the first unharmed" {
   whole
-  BAKE_EXEC='exec' slow -o x.tif --jobs 1 >log 2>&1 3>&- &
-  local pid=$!
-  wait_for_batch x.tif.partial
+  begin_slow --jobs 1
+  local pid=$! # `run` has processes of its own
   kill -STOP "$pid"
   run -1 slow -o x.tif
   echo "$output"
@@ -124,11 +120,10 @@ goes_on() {
 
 # Starts a bake, changes parts.inc or the script (a command) when it has a batch.
 change_meanwhile() {
-  BAKE_EXEC='exec' slow -o x.tif --jobs 1 >log 2>&1 3>&- &
-  local pid=$! status=0
-  wait_for_batch x.tif.partial
+  local status=0
+  begin_slow --jobs 1
   eval "$1"
-  wait "$pid" || status=$?
+  wait $! || status=$?
   cat log
   [ "$status" -eq 1 ]
   [ "$(wc -l <log)" -eq 1 ]

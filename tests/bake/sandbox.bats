@@ -48,11 +48,9 @@ needs_walls() {
 @test "interrupted, no process is left" {
   needs_walls
   slow_lamp
-  BAKE_EXEC='exec' slow -o x.tif --sandbox >log 2>&1 3>&- &
-  local pid=$!
-  wait_for_batch x.tif.partial
-  kill -KILL "$pid"
-  wait "$pid" || true
+  begin_slow --sandbox
+  kill -KILL $!
+  wait $! || true
   no_process_left 40
 }
 
