@@ -13,8 +13,7 @@
 #include "shadow/occlusion.h"
 
 struct arguments {
-  struct options options;
-  struct picture_options view;
+  struct world world;
   const char *output, *preview;
   int samples;
   double exposure;   /* 0: by the picture */
@@ -66,11 +65,12 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
   switch (key) {
   case ARGP_KEY_INIT:
-    state->child_inputs[0] = &arguments->options;
-    state->child_inputs[1] = &arguments->view;
+    state->child_inputs[0] = &arguments->world.options;
+    state->child_inputs[1] = &arguments->world.view;
     return 0;
   case ARGP_KEY_SUCCESS:
-    if (arguments->time_limit > 0 && gather_methods[arguments->options.method].sum == METHOD_OPENGL)
+    if (arguments->time_limit > 0 &&
+        gather_methods[arguments->world.options.method].sum == METHOD_OPENGL)
       argp_error(state, "--time-limit: not with --method gl, which has one pass; use --level");
     check_output(arguments->output, state);
     return 0;
@@ -80,37 +80,31 @@ static error_t parse(int key, char *value, struct argp_state *state) {
 }
 
 /* What a method cannot do is not left out silently. */
-static enum result check_method(const struct arguments *arguments, const struct world *world,
-                                struct error *error) {
-  const struct method *method = &gather_methods[arguments->options.method];
+static enum result check_method(const struct world *world, struct error *error) {
+  const struct method *method = &gather_methods[world->options.method];
   const struct scene_material *glossy = world_glossy(world);
   if (!method->matte_only || !glossy) return RESULT_OK;
   return result_fail(error, RESULT_BAD,
                      "%s: material %s has a highlight, which --method %s cannot do; take another, "
                      "such as reference",
-                     arguments->view.mesh, glossy->name, method->name);
+                     world->view.mesh, glossy->name, method->name);
 }
 
-static enum result load(const struct arguments *arguments, struct world *world,
-                        struct error *error) {
-  const struct options *options = &arguments->options;
-  const struct picture_options *view = &arguments->view;
-  uint64_t receivers = (uint64_t)view->size[0] * (uint64_t)view->size[1] *
+static enum result load(struct arguments *arguments, struct error *error) {
+  struct world *world = &arguments->world;
+  uint64_t receivers = (uint64_t)world->view.size[0] * (uint64_t)world->view.size[1] *
                        (uint64_t)(arguments->samples * arguments->samples);
-  const char *outputs[] = {arguments->output, arguments->preview, options->stats};
-  enum result result = world_load_lights(world, options, view->mesh, outputs, 3, error);
-  if (result == RESULT_OK)
-    result = gather_prepare(world->lights, world->light_count, options->method, receivers,
-                            options->threads, &world->prepared, error);
-  if (result == RESULT_OK)
-    result = world_load_scene(world, options, view->mesh, SCENE_SURFACES, error);
-  if (result == RESULT_OK) result = check_method(arguments, world, error);
+  const char *outputs[] = {arguments->output, arguments->preview, world->options.stats};
+  enum result result = world_load_lights(world, outputs, 3, error);
+  if (result == RESULT_OK) result = world_prepare(world, receivers, error);
+  if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
+  if (result == RESULT_OK) result = check_method(world, error);
   if (result == RESULT_OK) result = occlusion_create(&world->scene, &world->occlusion, error);
   return result;
 }
 
-static void tell_effects(const struct arguments *arguments, const struct scene *scene,
-                         struct stats *stats) {
+static void tell_effects(const struct arguments *arguments, struct stats *stats) {
+  const struct scene *scene = &arguments->world.scene;
   int glossy = 0, textured = 0;
   for (int k = 0; k < scene->material_count; ++k) {
     glossy += scene_glossy(&scene->materials[k]);
@@ -144,18 +138,18 @@ static void tell_report(const struct arguments *arguments, const struct image_re
            report->passes > 1 ? "es" : "", report->error);
 }
 
-static enum result render(const struct arguments *arguments, const struct world *world,
-                          struct picture *picture, struct stats *stats, struct error *error) {
-  const struct options *options = &arguments->options;
+static enum result render(const struct arguments *arguments, struct picture *picture,
+                          struct stats *stats, struct error *error) {
+  const struct world *world = &arguments->world;
   const bool shadows = !arguments->no_shadows;
   struct progress progress;
-  const struct gl_sum_settings gl = world_gl(world, options, shadows);
+  const struct gl_sum_settings gl = world_gl(world, shadows);
   const struct image_settings settings = {
-      .shade = world_shade(world, &arguments->view),
-      .gather = world_gather(world, options, shadows),
-      .gl = gather_methods[options->method].sum == METHOD_OPENGL ? &gl : NULL,
+      .shade = world_shade(world),
+      .gather = world_gather(world, shadows),
+      .gl = gather_methods[world->options.method].sum == METHOD_OPENGL ? &gl : NULL,
       .samples = arguments->samples,
-      .threads = options->threads,
+      .threads = world->options.threads,
       .progress = show_progress,
       .progress_context = &progress,
       .until = arguments->time_limit > 0 ? arguments->start + arguments->time_limit : 0};
@@ -187,25 +181,21 @@ static enum result write_files(const struct arguments *arguments, const struct p
 
 static enum result run(void *input, struct error *error) {
   struct arguments *arguments = input;
-  const struct options *options = &arguments->options;
-  struct world world = {0};
   struct picture picture = {0};
-  struct stats stats = stats_start(options);
-  enum result result = load(arguments, &world, error);
+  struct stats stats = stats_start();
+  enum result result = load(arguments, error);
   if (result == RESULT_OK) {
-    tell_effects(arguments, &world.scene, &stats);
+    tell_effects(arguments, &stats);
     stats_phase(&stats, "render");
-    result = render(arguments, &world, &picture, &stats, error);
+    result = render(arguments, &picture, &stats, error);
   }
   if (result == RESULT_OK) {
     stats_phase(&stats, "write");
     result = write_files(arguments, &picture, error);
   }
-  if (result == RESULT_OK)
-    result = stats_write(&stats, world.lights, world.light_count, options->stats, error);
+  result = stats_end(&stats, &arguments->world, result, error);
   picture_free(&picture);
-  world_free(&world);
-  options_free(&arguments->options);
+  world_free(&arguments->world);
   return result;
 }
 

@@ -16,27 +16,22 @@ enum { OPTION_MESH = 256 };
 /* Receivers that are read, and answered, at a time; and a thread's share of them. */
 enum { BLOCK = 16384, TILE = 64 };
 
-struct arguments {
-  struct options options;
-  const char *mesh;
-};
-
 static error_t parse(int key, char *value, struct argp_state *state) {
-  struct arguments *arguments = state->input;
+  struct world *world = state->input;
+  const struct method *method = &gather_methods[world->options.method];
   switch (key) {
   case ARGP_KEY_INIT:
-    state->child_inputs[0] = &arguments->options;
+    state->child_inputs[0] = &world->options;
     return 0;
   case OPTION_MESH:
-    arguments->mesh = value;
+    world->view.mesh = value;
     return 0;
   case ARGP_KEY_ARG:
     argp_error(state, "%s: receivers come from stdin, lights by --light", value);
     return 0;
   case ARGP_KEY_SUCCESS:
-    if (gather_methods[arguments->options.method].matte_only && arguments->mesh)
-      argp_error(state, "--method %s: cannot be used with --mesh; use reference",
-                 gather_methods[arguments->options.method].name);
+    if (method->matte_only && world->view.mesh)
+      argp_error(state, "--method %s: cannot be used with --mesh; use reference", method->name);
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;
@@ -74,8 +69,7 @@ static enum result prepare_for_many(struct work *work, struct error *error) {
   if (gather_methods[settings->method].makes != METHOD_TREES_FOR_MANY ||
       settings->prepared->trees || many < GATHER_MANY)
     return RESULT_OK;
-  return gather_prepare(settings->lights, settings->light_count, settings->method, many,
-                        work->threads, &work->world->prepared, error);
+  return world_prepare(work->world, many, error);
 }
 
 static enum result answer(struct work *work, struct error *error) {
@@ -96,17 +90,16 @@ static enum result answer(struct work *work, struct error *error) {
   return result;
 }
 
-static enum result prepare(const struct options *options, struct work *work, struct error *error) {
+static enum result prepare(struct work *work, struct error *error) {
   struct world *world = work->world;
-  enum result result = gather_prepare(world->lights, world->light_count, options->method, 0,
-                                      options->threads, &world->prepared, error);
+  enum result result = world_prepare(world, 0, error);
   if (result != RESULT_OK) return result;
-  work->settings = world_gather(world, options, true);
+  work->settings = world_gather(world, true);
   work->gather = calloc((size_t)work->threads, sizeof *work->gather);
   work->gathered = calloc(BLOCK, sizeof *work->gathered);
   if (!work->gather || !work->gathered) return result_no_memory(error);
-  const struct gl_sum_settings gl = world_gl(world, options, world->occlusion != NULL);
-  if (gather_methods[options->method].sum == METHOD_OPENGL)
+  const struct gl_sum_settings gl = world_gl(world, world->occlusion != NULL);
+  if (gather_methods[world->options.method].sum == METHOD_OPENGL)
     return gl_gather_create(&gl, &work->gl, error);
   return gather_create_all(&work->settings, work->threads, work->gather, error);
 }
@@ -121,29 +114,25 @@ static void finish(struct work *work, struct stats *stats) {
 }
 
 static enum result run(void *input, struct error *error) {
-  struct arguments *arguments = input;
-  const struct options *options = &arguments->options;
-  const char *mesh = arguments->mesh;
-  struct world world = {0};
-  struct work work = {.world = &world, .threads = options->threads};
-  struct stats stats = stats_start(options);
-  enum result result = world_load_lights(&world, options, mesh, &options->stats, 1, error);
+  struct world *world = input;
+  const char *mesh = world->view.mesh;
+  struct work work = {.world = world, .threads = world->options.threads};
+  struct stats stats = stats_start();
+  enum result result = world_load_lights(world, &world->options.stats, 1, error);
+  if (result == RESULT_OK && mesh) result = world_load_scene(world, SCENE_SHAPE, error);
   if (result == RESULT_OK && mesh)
-    result = world_load_scene(&world, options, mesh, SCENE_SHAPE, error);
-  if (result == RESULT_OK && mesh) result = occlusion_create(&world.scene, &world.occlusion, error);
+    result = occlusion_create(&world->scene, &world->occlusion, error);
   if (result == RESULT_OK) {
     stats_effect(&stats, "shadows", mesh != NULL, mesh ? "%zu triangles" : "no --mesh",
-                 world.scene.triangles);
+                 world->scene.triangles);
     stats_phase(&stats, "prepare");
-    result = prepare(options, &work, error);
+    result = prepare(&work, error);
     stats_phase(&stats, "gather");
   }
   if (result == RESULT_OK) result = answer(&work, error);
   finish(&work, &stats);
-  if (result == RESULT_OK)
-    result = stats_write(&stats, world.lights, world.light_count, options->stats, error);
-  world_free(&world);
-  options_free(&arguments->options);
+  result = stats_end(&stats, world, result, error);
+  world_free(world);
   return result;
 }
 
@@ -163,6 +152,6 @@ int cmd_irradiance(int argc, char **argv) {
   static const struct argp_child children[] = {
       {&options_argp, 0, NULL, 0}, {&cli_argp, 0, NULL, 0}, {0}};
   static const struct argp argp = {options_list, parse, NULL, help_text, children, NULL, NULL};
-  struct arguments arguments = {0};
-  return cli_run(&argp, argc, argv, run, &arguments);
+  struct world world = {0};
+  return cli_run(&argp, argc, argv, run, &world);
 }

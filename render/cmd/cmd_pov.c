@@ -6,8 +6,7 @@
 #include "pov/pov.h"
 
 struct arguments {
-  struct options options;
-  struct picture_options view;
+  struct world world;
   const char *output;
 };
 
@@ -15,8 +14,8 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
   switch (key) {
   case ARGP_KEY_INIT:
-    state->child_inputs[0] = &arguments->options;
-    state->child_inputs[1] = &arguments->view;
+    state->child_inputs[0] = &arguments->world.options;
+    state->child_inputs[1] = &arguments->world.view;
     return 0;
   case 'o':
     arguments->output = value;
@@ -30,8 +29,9 @@ static error_t parse(int key, char *value, struct argp_state *state) {
 }
 
 /* The scene must not take the place of the includes that it reads. */
-static enum result find_includes(const struct arguments *arguments, const struct world *world,
-                                 struct pov_includes *includes, struct error *error) {
+static enum result find_includes(const struct arguments *arguments, struct pov_includes *includes,
+                                 struct error *error) {
+  const struct world *world = &arguments->world;
   enum result result = pov_includes_find(world->lights, world->light_count, includes, error);
   for (int k = 0; k < includes->count && result == RESULT_OK; ++k) {
     const char *inputs[] = {includes->list[k].path, includes->list[k].image};
@@ -42,22 +42,19 @@ static enum result find_includes(const struct arguments *arguments, const struct
 
 static enum result run(void *input, struct error *error) {
   struct arguments *arguments = input;
-  const struct options *options = &arguments->options;
-  const char *mesh = arguments->view.mesh;
-  struct world world = {0};
+  struct world *world = &arguments->world;
   struct pov_includes includes = {0};
   char note[256] = "";
-  enum result result = world_load_lights(&world, options, mesh, &arguments->output, 1, error);
-  if (result == RESULT_OK) result = find_includes(arguments, &world, &includes, error);
-  if (result == RESULT_OK) result = world_load_scene(&world, options, mesh, SCENE_SURFACES, error);
+  enum result result = world_load_lights(world, &arguments->output, 1, error);
+  if (result == RESULT_OK) result = find_includes(arguments, &includes, error);
+  if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
   if (result == RESULT_OK) {
-    const struct shade shade = world_shade(&world, &arguments->view);
+    const struct shade shade = world_shade(world);
     result = pov_write(arguments->output, &shade, &includes, cli_command_line(), note, error);
     if (result == RESULT_OK && *note) cli_note("%s: note: %s", arguments->output, note);
   }
   pov_includes_free(&includes);
-  world_free(&world);
-  options_free(&arguments->options);
+  world_free(world);
   return result;
 }
 

@@ -13,8 +13,7 @@
 #include "tradeoff/tradeoff.h"
 
 struct arguments {
-  struct options options; /* its lights */
-  struct picture_options view;
+  struct world world;
   const char *output, *plot;
   bool methods[GATHER_METHODS];
   double finest;
@@ -78,8 +77,8 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
   switch (key) {
   case ARGP_KEY_INIT:
-    state->child_inputs[0] = &arguments->options;
-    state->child_inputs[1] = &arguments->view;
+    state->child_inputs[0] = &arguments->world.options;
+    state->child_inputs[1] = &arguments->world.view;
     for (int k = 0; k < GATHER_METHODS; ++k)
       arguments->methods[k] = gather_methods[k].sum != METHOD_OPENGL;
     return 0;
@@ -94,13 +93,12 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   }
 }
 
-static enum result load(const struct arguments *arguments, struct world *world,
-                        struct error *error) {
-  const struct options *options = &arguments->options;
-  const char *mesh = arguments->view.mesh, *outputs[] = {arguments->output, arguments->plot};
-  enum result result = world_load_lights(world, options, mesh, outputs, 2, error);
+static enum result load(struct arguments *arguments, struct error *error) {
+  struct world *world = &arguments->world;
+  const char *outputs[] = {arguments->output, arguments->plot};
+  enum result result = world_load_lights(world, outputs, 2, error);
   if (result == RESULT_OK && arguments->plot) result = plot_check(arguments->plot, error);
-  if (result == RESULT_OK) result = world_load_scene(world, options, mesh, SCENE_SURFACES, error);
+  if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
   if (result == RESULT_OK) result = occlusion_create(&world->scene, &world->occlusion, error);
   return result;
 }
@@ -110,9 +108,10 @@ static void show_progress(void *context, double done) {
 }
 
 static struct tradeoff_settings settings_of(const struct arguments *arguments,
-                                            const struct world *world, struct progress *progress) {
+                                            struct progress *progress) {
+  const struct world *world = &arguments->world;
   struct tradeoff_settings settings = {
-      .shade = world_shade(world, &arguments->view),
+      .shade = world_shade(world),
       .gather = {.lights = world->lights,
                  .light_count = world->light_count,
                  .occlusion = arguments->no_shadows ? NULL : world->occlusion,
@@ -138,10 +137,11 @@ static size_t slab_bytes(const struct light *lights, int count) {
 }
 
 /* The plot first: a table without it would look like success. */
-static enum result write_files(const struct arguments *arguments, const struct world *world,
+static enum result write_files(const struct arguments *arguments,
                                const struct tradeoff_settings *settings,
                                const struct tradeoff *tradeoff, struct error *error) {
-  const struct tradeoff_about about = {cli_command_line(), arguments->view.mesh,
+  const struct world *world = &arguments->world;
+  const struct tradeoff_about about = {cli_command_line(), world->view.mesh,
                                        slab_bytes(world->lights, world->light_count)};
   char *texts[2] = {NULL, NULL};
   size_t lengths[2] = {0, 0};
@@ -161,24 +161,22 @@ static enum result write_files(const struct arguments *arguments, const struct w
 
 static enum result run(void *input, struct error *error) {
   struct arguments *arguments = input;
-  struct world world = {0};
   struct tradeoff tradeoff = {0};
   struct progress progress;
-  enum result result = load(arguments, &world, error);
+  enum result result = load(arguments, error);
   if (result == RESULT_OK) {
-    struct tradeoff_settings settings = settings_of(arguments, &world, &progress);
+    struct tradeoff_settings settings = settings_of(arguments, &progress);
     progress_start(&progress, cli_quiet(), 0);
     result = tradeoff_measure(&settings, &tradeoff, error);
     progress_end(&progress);
-    if (result == RESULT_OK) result = write_files(arguments, &world, &settings, &tradeoff, error);
+    if (result == RESULT_OK) result = write_files(arguments, &settings, &tradeoff, error);
     for (int k = 0; k < GATHER_METHODS && result == RESULT_OK; ++k)
       if (tradeoff.refusal[k][0])
         cli_note("%s: note: without method %s: %s", arguments->output, gather_methods[k].name,
                  tradeoff.refusal[k]);
   }
   tradeoff_free(&tradeoff);
-  world_free(&world);
-  options_free(&arguments->options);
+  world_free(&arguments->world);
   return result;
 }
 
@@ -197,7 +195,7 @@ int cmd_tradeoff(int argc, char **argv) {
   static const struct argp argp = {options_list, parse, "MESH", help_text, picture_options_children,
                                    NULL,         NULL};
   /* Unless --size says otherwise the picture is no wider and no higher. */
-  struct arguments arguments = {.view = {.size = {160, 120}},
+  struct arguments arguments = {.world = {.view = {.size = {160, 120}}},
                                 .finest = 1e-4,
                                 .levels = -1,
                                 .repeats = 3,

@@ -11,8 +11,7 @@
 enum { MAP_SIZE = 1024 }; /* of shadow maps: 16 of 16 groups are drawn in a frame or two */
 
 struct arguments {
-  struct options options;
-  struct picture_options view;
+  struct world world;
   const char *keys;
 };
 
@@ -35,8 +34,8 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
   switch (key) {
   case ARGP_KEY_INIT:
-    state->child_inputs[0] = &arguments->options;
-    state->child_inputs[1] = &arguments->view;
+    state->child_inputs[0] = &arguments->world.options;
+    state->child_inputs[1] = &arguments->world.view;
     return 0;
   case OPTION_KEYS:
     check_keys(value, state);
@@ -47,39 +46,29 @@ static error_t parse(int key, char *value, struct argp_state *state) {
   }
 }
 
-static enum result load(const struct arguments *arguments, struct world *world,
-                        struct error *error) {
-  const struct options *options = &arguments->options;
-  const char *mesh = arguments->view.mesh;
-  enum result result = world_load_lights(world, options, mesh, NULL, 0, error);
-  if (result == RESULT_OK)
-    result =
-        gather_prepare(world->lights, world->light_count, GATHER_GL, 0, 1, &world->prepared, error);
-  return result == RESULT_OK ? world_load_scene(world, options, mesh, SCENE_SURFACES, error)
-                             : result;
-}
-
 static enum result run(void *input, struct error *error) {
   struct arguments *arguments = input;
-  const struct options *options = &arguments->options;
-  const struct picture_options *view = &arguments->view;
-  struct world world = {0};
-  enum result result = load(arguments, &world, error);
+  struct world *world = &arguments->world;
+  const struct picture_options *view = &world->view;
+  enum result result = world_load_lights(world, NULL, 0, error);
+  if (result == RESULT_OK) result = world_prepare(world, 0, error);
+  if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
   if (result == RESULT_OK) {
-    struct viewer_world shown = {.scene = &world.scene,
-                                 .lights = world.lights,
-                                 .light_count = world.light_count,
-                                 .prepared = &world.prepared,
+    struct viewer_world shown = {.scene = &world->scene,
+                                 .lights = world->lights,
+                                 .light_count = world->light_count,
+                                 .prepared = &world->prepared,
                                  .map_size = MAP_SIZE,
-                                 .threads = tiles_processors()};
-    const struct viewer_arguments what = {
-        .mesh = view->mesh, .repair = options->repair, .lights = options->lights, .world = &shown};
-    struct camera camera = view->camera_given ? view->camera : viewer_camera_outside(&world.scene);
+                                 .threads = world->options.threads};
+    const struct viewer_arguments what = {.mesh = view->mesh,
+                                          .repair = world->options.repair,
+                                          .lights = world->options.lights,
+                                          .world = &shown};
+    struct camera camera = view->camera_given ? view->camera : viewer_camera_outside(&world->scene);
     memcpy(shown.background, view->background, sizeof shown.background);
     result = viewer_loop_run(&what, &camera, view->size[0], view->size[1], arguments->keys, error);
   }
-  world_free(&world);
-  options_free(&arguments->options);
+  world_free(world);
   return result;
 }
 
@@ -106,6 +95,8 @@ static const char help_text[] =
 int cmd_view(int argc, char **argv) {
   static const struct argp argp = {options_list, parse, "MESH", help_text, picture_options_children,
                                    NULL,         NULL};
-  struct arguments arguments = {.view = {.camera_optional = true}};
+  struct arguments arguments = {
+      .world = {.options = {.method = GATHER_GL, .threads = tiles_processors()},
+                .view = {.camera_optional = true}}};
   return cli_run(&argp, argc, argv, run, &arguments);
 }

@@ -14,47 +14,35 @@
 
 #include <stdbool.h>
 
-#include "cmd/options.h"
-#include "light/light.h"
-#include "microlight/receiver.h"
+#include <jansson.h>
 
-enum { STATS_PHASES = 8, STATS_EFFECTS = 8 };
+#include "cmd/world.h"
 
 struct stats {
-  const char *command; /* not owned, as all texts but the reasons */
-  const char *method;
-  double tolerance;
-  int threads;
-  struct gather_counts counts;
+  struct gather_counts counts; /* set by the command */
 
   /* By the functions below: */
-  int phase_count, effect_count;
-  double start; /* of the last phase, seconds; 0 while none goes on */
-  struct stats_phase {
-    const char *name;
-    double seconds;
-  } phases[STATS_PHASES];
-  struct stats_effect {
-    const char *name;
-    bool simulated;
-    char reason[160];
-  } effects[STATS_EFFECTS];
+  unsigned long mark;  /* json_text.h */
+  json_t *seconds;     /* of the phases that have ended; owned */
+  json_t *effects;     /* owned */
+  const char *phase;   /* that goes on; not owned */
+  double start, total; /* seconds: its start; of all phases */
 };
 
-/* Those of the command that is running, in its phase "load". */
-struct stats stats_start(const struct options *options);
+/* In the phase "load". To be followed by stats_end. */
+struct stats stats_start(void);
 
-/* Ends the phase that goes on, if any, and starts the next; NULL starts none. What comes after
- * STATS_PHASES is added to the last. */
+/* Ends the phase that goes on, if any, and starts the next, of another name than all before. */
 void stats_phase(struct stats *stats, const char *name);
 
-/* Says whether an effect was simulated, and why. What comes after STATS_EFFECTS is dropped. */
+/* Says whether an effect was simulated, and why. */
 void stats_effect(struct stats *stats, const char *name, bool simulated, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Writes the object, whole or not at all; "-" is stdout, and NULL leaves it at that. Ends the phase
- * that goes on. Estimates the slabs' own errors, which takes a moment. */
-enum result stats_write(struct stats *stats, const struct light *lights, int count,
-                        const char *path, struct error *error);
+/* The end of a command. Where `result` is RESULT_OK and --stats was given: ends the phase that goes
+ * on and writes the object, whole or not at all, to a file or to "-", stdout; estimates the slabs'
+ * own errors for that, which takes a moment. Frees what is owned. */
+enum result stats_end(struct stats *stats, const struct world *world, enum result result,
+                      struct error *error);
 
 #endif

@@ -7,8 +7,9 @@
 #include "cli/cli.h"
 #include "shadow/occlusion.h"
 
-enum result world_load_lights(struct world *world, const struct options *options, const char *mesh,
-                              const char *const *outputs, int count, struct error *error) {
+enum result world_load_lights(struct world *world, const char *const *outputs, int count,
+                              struct error *error) {
+  const struct options *options = &world->options;
   size_t lights = (size_t)options->light_count;
   const char **inputs = calloc(lights + 1, sizeof *inputs);
   enum result result = RESULT_OK;
@@ -20,17 +21,22 @@ enum result world_load_lights(struct world *world, const struct options *options
     inputs[k] = world->lights[k].path;
   }
   if (result == RESULT_OK) {
-    inputs[lights] = mesh;
+    inputs[lights] = world->view.mesh;
     result = output_check(outputs, count, inputs, options->light_count + 1, error);
   }
   free(inputs);
   return result;
 }
 
-enum result world_load_scene(struct world *world, const struct options *options, const char *mesh,
-                             enum scene_needs needs, struct error *error) {
+enum result world_prepare(struct world *world, uint64_t receivers, struct error *error) {
+  return gather_prepare(world->lights, world->light_count, world->options.method, receivers,
+                        world->options.threads, &world->prepared, error);
+}
+
+enum result world_load_scene(struct world *world, enum scene_needs needs, struct error *error) {
+  const char *mesh = world->view.mesh;
   char note[256] = "";
-  enum result result = scene_load(mesh, needs, options->repair, &world->scene, note, error);
+  enum result result = scene_load(mesh, needs, world->options.repair, &world->scene, note, error);
   if (result == RESULT_OK && *note) cli_note("%s: note: %s", mesh, note);
   return result;
 }
@@ -41,6 +47,7 @@ void world_free(struct world *world) {
   gather_prepared_free(&world->prepared);
   for (int k = 0; k < world->light_count; ++k) light_free(&world->lights[k]);
   free(world->lights);
+  options_free(&world->options);
   *world = (struct world){0};
 }
 
@@ -50,8 +57,8 @@ const struct scene_material *world_glossy(const struct world *world) {
   return NULL;
 }
 
-struct gather_settings world_gather(const struct world *world, const struct options *options,
-                                    bool shadows) {
+struct gather_settings world_gather(const struct world *world, bool shadows) {
+  const struct options *options = &world->options;
   return (struct gather_settings){.lights = world->lights,
                                   .light_count = world->light_count,
                                   .prepared = &world->prepared,
@@ -65,19 +72,19 @@ struct gather_settings world_gather(const struct world *world, const struct opti
                                   .all_effects = options->all_effects};
 }
 
-struct gl_sum_settings world_gl(const struct world *world, const struct options *options,
-                                bool shadows) {
+struct gl_sum_settings world_gl(const struct world *world, bool shadows) {
   return (struct gl_sum_settings){.lights = world->lights,
                                   .light_count = world->light_count,
                                   .levels = world->prepared.levels,
-                                  .level = options->level,
+                                  .level = world->options.level,
                                   .occluders = shadows ? &world->scene : NULL,
-                                  .map_size = options->shadow_map,
-                                  .groups = options->shadow_groups,
-                                  .separate = options->gl_separate};
+                                  .map_size = world->options.shadow_map,
+                                  .groups = world->options.shadow_groups,
+                                  .separate = world->options.gl_separate};
 }
 
-struct shade world_shade(const struct world *world, const struct picture_options *view) {
+struct shade world_shade(const struct world *world) {
+  const struct picture_options *view = &world->view;
   struct shade shade = {.scene = &world->scene,
                         .occlusion = world->occlusion,
                         .lights = world->lights,

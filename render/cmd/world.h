@@ -1,5 +1,5 @@
-/* world.h - what a command works on: lights, what its method makes of them first, a mesh and
- * what that hides. */
+/* world.h - what a command was asked for, and what it works on: lights, what its method makes of
+ * them first, a mesh and what that hides. */
 #ifndef WORLD_H
 #define WORLD_H
 
@@ -11,7 +11,9 @@
 #include "scene/scene.h"
 
 struct world {
-  struct light *lights; /* [light_count]; owned */
+  struct options options;      /* for options_argp, or options_lights_argp; owned */
+  struct picture_options view; /* for picture_options_argp */
+  struct light *lights;        /* [light_count]; owned */
   int light_count;
   struct gather_prepared prepared; /* owned */
   struct scene scene;              /* owned */
@@ -19,14 +21,16 @@ struct world {
 };
 
 /* Loads the lights. Then refuses, before any work, outputs that cannot be written, that are one
- * file, or that are one of the slabs or `mesh` (output_check); NULL among them is skipped. The
- * world is zeroed before; world_free also after a failure. */
-enum result world_load_lights(struct world *world, const struct options *options, const char *mesh,
-                              const char *const *outputs, int count, struct error *error);
+ * file, or that are one of the slabs or the mesh (output_check); NULL among them is skipped. All
+ * but the options is zeroed before; world_free also after a failure. */
+enum result world_load_lights(struct world *world, const char *const *outputs, int count,
+                              struct error *error);
+
+/* What the options' method needs for so many receivers (gather_prepare). */
+enum result world_prepare(struct world *world, uint64_t receivers, struct error *error);
 
 /* Loads the mesh, and says in a note what was repaired. */
-enum result world_load_scene(struct world *world, const struct options *options, const char *mesh,
-                             enum scene_needs needs, struct error *error);
+enum result world_load_scene(struct world *world, enum scene_needs needs, struct error *error);
 
 void world_free(struct world *world);
 
@@ -35,12 +39,10 @@ const struct scene_material *world_glossy(const struct world *world);
 
 /* How the world is summed, by the CPU or by the method gl; without `shadows` light passes through
  * the mesh. */
-struct gather_settings world_gather(const struct world *world, const struct options *options,
-                                    bool shadows);
-struct gl_sum_settings world_gl(const struct world *world, const struct options *options,
-                                bool shadows);
+struct gather_settings world_gather(const struct world *world, bool shadows);
+struct gl_sum_settings world_gl(const struct world *world, bool shadows);
 
 /* What the camera sees of it. */
-struct shade world_shade(const struct world *world, const struct picture_options *view);
+struct shade world_shade(const struct world *world);
 
 #endif
