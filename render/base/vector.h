@@ -23,6 +23,21 @@ static inline double vector_length(const double x[3]) {
   return hypot(hypot(x[0], x[1]), x[2]);
 }
 
+/* Boxes by their corners: one around nothing, and one that also holds x. */
+static inline void vector_box(double low[3], double high[3]) {
+  for (int c = 0; c < 3; ++c) {
+    low[c] = INFINITY;
+    high[c] = -INFINITY;
+  }
+}
+
+static inline void vector_widen(double low[3], double high[3], const double x[3]) {
+  for (int c = 0; c < 3; ++c) {
+    low[c] = fmin(low[c], x[c]);
+    high[c] = fmax(high[c], x[c]);
+  }
+}
+
 /* False where it has no direction: zero or not finite. */
 static inline bool vector_normalise(double x[3]) {
   double length = vector_length(x);

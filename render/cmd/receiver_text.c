@@ -56,14 +56,9 @@ static enum result sort(struct receivers *receivers, struct error *error) {
   double low[3], high[3];
   struct place *places = malloc(((size_t)receivers->count + 1) * sizeof *places);
   if (!places) return result_no_memory(error);
-  for (int c = 0; c < 3; ++c) {
-    low[c] = INFINITY;
-    high[c] = -INFINITY;
-    for (int k = 0; k < receivers->count; ++k) {
-      low[c] = fmin(low[c], receivers->receiver[k].position[c]);
-      high[c] = fmax(high[c], receivers->receiver[k].position[c]);
-    }
-  }
+  vector_box(low, high);
+  for (int k = 0; k < receivers->count; ++k)
+    vector_widen(low, high, receivers->receiver[k].position);
   double size = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
   for (int k = 0; k < receivers->count; ++k) {
     places[k] = (struct place){0, k};

@@ -28,14 +28,8 @@ bool scene_glossy(const struct scene_material *material) {
 }
 
 void scene_box(const struct scene *scene, double low[3], double high[3]) {
-  for (int c = 0; c < 3; ++c) {
-    low[c] = INFINITY;
-    high[c] = -INFINITY;
-    for (size_t k = 0; k < scene->vertices; ++k) {
-      low[c] = fmin(low[c], scene->position[k][c]);
-      high[c] = fmax(high[c], scene->position[k][c]);
-    }
-  }
+  vector_box(low, high);
+  for (size_t k = 0; k < scene->vertices; ++k) vector_widen(low, high, scene->position[k]);
 }
 
 static void share_weights(const double share[2], double weights[3]) {

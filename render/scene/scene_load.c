@@ -1,15 +1,35 @@
-/* scene_load.c - loads a scene from end to end; see scene.h. */
+/* scene_load.c - loads a scene from end to end (scene.h), and what that shares (scene_load.h). */
 #include "scene/scene_load.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <errno.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+char *scene_beside(const char *path, const char *name) {
+  const char *slash = strrchr(path, '/');
+  int length = slash && name[0] != '/' ? (int)(slash - path) + 1 : 0;
+  char *joined;
+  return asprintf(&joined, "%.*s%s", length, path, name) < 0 ? NULL : joined;
+}
+
+enum result scene_unread(struct scene_loading *loading, struct error *error, const char *format,
+                         ...) {
+  ++loading->unread;
+  if (loading->repair) return RESULT_OK;
+  char what[768];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(what, sizeof what, format, arguments);
+  va_end(arguments);
+  return result_fail(error, RESULT_BAD, "%s, which is not supported; --repair ignores it", what);
+}
 
 static enum result find_format(struct scene_loading *loading, struct error *error) {
   static const struct {

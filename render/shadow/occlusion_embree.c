@@ -43,18 +43,13 @@ static void be_quiet(void *context, enum RTCError code, const char *text) {
 
 static bool measure(const struct scene *scene, struct occlusion *occlusion) {
   double low[3], high[3], half[3];
-  for (int c = 0; c < 3; ++c) {
-    low[c] = INFINITY;
-    high[c] = -INFINITY;
-  }
+  vector_box(low, high);
   for (size_t t = 0; t < scene->triangles; ++t)
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) {
-        double x = scene->position[scene->corners[t][k]][c];
-        if (!isfinite(x)) return false;
-        low[c] = fmin(low[c], x);
-        high[c] = fmax(high[c], x);
-      }
+    for (int k = 0; k < 3; ++k) {
+      const double *x = scene->position[scene->corners[t][k]];
+      if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2])) return false;
+      vector_widen(low, high, x);
+    }
   for (int c = 0; c < 3; ++c) {
     occlusion->center[c] = low[c] / 2 + high[c] / 2;
     half[c] = high[c] / 2 - low[c] / 2;

@@ -31,16 +31,10 @@ static double centre(const struct triangle *triangle, int axis) {
 }
 
 static void bound(const struct shaft_tree *tree, struct node *node) {
-  for (int c = 0; c < 3; ++c) {
-    node->low[c] = INFINITY;
-    node->high[c] = -INFINITY;
-    for (int k = node->first; k < node->last; ++k)
-      for (int corner = 0; corner < 3; ++corner) {
-        double x = tree->triangles[k].corner[corner][c];
-        node->low[c] = fmin(node->low[c], x);
-        node->high[c] = fmax(node->high[c], x);
-      }
-  }
+  vector_box(node->low, node->high);
+  for (int k = node->first; k < node->last; ++k)
+    for (int corner = 0; corner < 3; ++corner)
+      vector_widen(node->low, node->high, tree->triangles[k].corner[corner]);
 }
 
 /* Reorders triangles so that those before `middle` are not right of it (Hoare's selection). */
@@ -195,13 +189,8 @@ bool shaft_may_block(const struct shaft_tree *tree, const double (*receivers)[3]
   if (tree->count == 0 || count == 0) return false;
   struct shaft shaft = {receivers, count, corners, {{0}}};
   double low[3], high[3];
-  for (int c = 0; c < 3; ++c) {
-    low[c] = high[c] = receivers[0][c];
-    for (int k = 1; k < count; ++k) {
-      low[c] = fmin(low[c], receivers[k][c]);
-      high[c] = fmax(high[c], receivers[k][c]);
-    }
-  }
+  vector_box(low, high);
+  for (int k = 0; k < count; ++k) vector_widen(low, high, receivers[k]);
   box_corners(low, high, shaft.hull);
   memcpy(shaft.hull[8], corners, 4 * sizeof *corners);
   return search(tree, &shaft, 0);
