@@ -28,7 +28,7 @@ static void set_corner(const struct gl_raster *raster, size_t triangle, int k,
 }
 
 /* Groups the corners by material: each is drawn at once. */
-static void set_parts(struct gl_raster *raster) {
+static void set_corners(struct gl_raster *raster, struct corner *corners) {
   const struct scene *scene = raster->scene;
   int first = 0;
   for (size_t k = 0; k < scene->triangles; ++k) raster->parts[scene->material[k]].count += 3;
@@ -39,6 +39,11 @@ static void set_parts(struct gl_raster *raster) {
     part->texture = material->texture < 0 ? 0 : raster->textures[material->texture];
     first += part->count;
     raster->glossy = raster->glossy || (part->count > 0 && scene_glossy(material));
+    part->count = 0;
+  }
+  for (size_t k = 0; k < 3 * scene->triangles; ++k) {
+    struct gl_raster_part *part = &raster->parts[scene->material[k / 3]];
+    set_corner(raster, k / 3, (int)(k % 3), &corners[part->first + part->count++]);
   }
 }
 
@@ -54,16 +59,8 @@ static enum result upload_mesh(struct gl_raster *raster, struct error *error) {
   if (count > INT32_MAX)
     return gl_fail(error, RESULT_BAD, "%zu triangles are more than it can draw", scene->triangles);
   struct corner *corners = calloc(count + 1, sizeof *corners);
-  int *next = calloc((size_t)scene->material_count + 1, sizeof *next);
-  enum result result = RESULT_OK;
-  if (!corners || !next) {
-    result = result_no_memory(error);
-    goto out;
-  }
-  set_parts(raster);
-  for (int k = 0; k < scene->material_count; ++k) next[k] = raster->parts[k].first;
-  for (size_t k = 0; k < count; ++k)
-    set_corner(raster, k / 3, (int)(k % 3), &corners[next[scene->material[k / 3]]++]);
+  if (!corners) return result_no_memory(error);
+  set_corners(raster, corners);
   glGenVertexArrays(1, &raster->mesh);
   glBindVertexArray(raster->mesh);
   glGenBuffers(1, &raster->corners);
@@ -73,11 +70,8 @@ static enum result upload_mesh(struct gl_raster *raster, struct error *error) {
   set_attribute(1, 3, offsetof(struct corner, normal));
   set_attribute(2, 3, offsetof(struct corner, geometric));
   set_attribute(3, 2, offsetof(struct corner, uv));
-  result = gl_check("the mesh", error);
-out:
   free(corners);
-  free(next);
-  return result;
+  return gl_check("the mesh", error);
 }
 
 static enum result upload_texture(const struct scene_texture *texture,

@@ -70,43 +70,39 @@ static bool grey(const double rgb[3]) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2];
 }
 
-static bool black(const double rgb[3]) {
-  return rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0;
-}
+/* What POV-Ray calls a kind of image. Those of 8 bits hold sRGB values. */
+struct image_kind {
+  const char *suffix, *name;
+  bool srgb;
+};
 
-/* What POV-Ray calls a kind of image; NULL for one that it does not read. Those of 8 bits
- * hold sRGB values. */
-static const char *image_kind(const char *path, bool *srgb) {
-  static const struct {
-    const char *suffix, *kind;
-    bool srgb;
-  } kinds[] = {{".png", "png", true},  {".jpg", "jpeg", true},  {".jpeg", "jpeg", true},
-               {".tga", "tga", true},  {".bmp", "bmp", true},   {".gif", "gif", true},
-               {".tif", "tiff", true}, {".tiff", "tiff", true}, {".ppm", "ppm", true},
-               {".exr", "exr", false}, {".hdr", "hdr", false}};
+/* Of a material's texture; NULL without one and for one that POV-Ray does not read. */
+static const struct image_kind *image_kind(const struct scene *scene,
+                                           const struct scene_material *material) {
+  static const struct image_kind kinds[] = {
+      {".png", "png", true},  {".jpg", "jpeg", true},  {".jpeg", "jpeg", true},
+      {".tga", "tga", true},  {".bmp", "bmp", true},   {".gif", "gif", true},
+      {".tif", "tiff", true}, {".tiff", "tiff", true}, {".ppm", "ppm", true},
+      {".exr", "exr", false}, {".hdr", "hdr", false}};
+  const char *path = material->texture >= 0 ? scene->textures[material->texture].path : "";
   const char *suffix = strrchr(path, '.');
   for (size_t k = 0; suffix && k < sizeof kinds / sizeof *kinds; ++k)
-    if (!strcasecmp(suffix, kinds[k].suffix)) {
-      *srgb = kinds[k].srgb;
-      return kinds[k].kind;
-    }
+    if (!strcasecmp(suffix, kinds[k].suffix)) return &kinds[k];
   return NULL;
 }
 
 /* The pigment, and what diffuse must be for it; textures are multiplied by one number only. */
 static double print_pigment(const struct scene *scene, const struct scene_material *material,
                             FILE *out) {
-  const char *path = material->texture >= 0 ? scene->textures[material->texture].path : NULL;
-  bool srgb = false;
-  const char *kind = path ? image_kind(path, &srgb) : NULL;
+  const struct image_kind *kind = image_kind(scene, material);
   if (!kind) {
     print_vector("pigment { rgb ", material->diffuse, out);
     fputs(" }", out);
     return 1;
   }
-  fprintf(out, "pigment { uv_mapping image_map { %s ", kind);
-  sdl_string(path, out);
-  fprintf(out, " %sinterpolate 2 } }", srgb ? "gamma srgb " : "");
+  fprintf(out, "pigment { uv_mapping image_map { %s ", kind->name);
+  sdl_string(scene->textures[material->texture].path, out);
+  fprintf(out, " %sinterpolate 2 } }", kind->srgb ? "gamma srgb " : "");
   return mean(material->diffuse);
 }
 
@@ -114,8 +110,9 @@ static double print_pigment(const struct scene *scene, const struct scene_materi
  * strong. */
 static void print_texture(const struct scene *scene, const struct scene_material *material,
                           FILE *out) {
-  bool gloss = material->shininess > 0 && !black(material->specular);
-  bool shines = !black(material->emission);
+  bool gloss = scene_glossy(material);
+  const double *glow = material->emission;
+  bool shines = glow[0] != 0 || glow[1] != 0 || glow[2] != 0;
   double twice = shines ? 2 : 1;
   fputs("    texture { ", out);
   if (shines) fputs("average texture_map {\n      [1 ", out);
@@ -126,10 +123,9 @@ static void print_texture(const struct scene *scene, const struct scene_material
             1 / material->shininess);
   fputs(" }", out);
   if (shines) {
-    double emission[3];
-    for (int c = 0; c < 3; ++c) emission[c] = twice * material->emission[c];
+    const double doubled[3] = {twice * glow[0], twice * glow[1], twice * glow[2]};
     print_vector("]\n      [1 pigment { rgb 1 } finish { ambient 0 diffuse 0 emission rgb ",
-                 emission, out);
+                 doubled, out);
     fputs(" }] }", out);
   }
   fputs(" }", out);
@@ -137,9 +133,8 @@ static void print_texture(const struct scene *scene, const struct scene_material
 
 /* What is lost of a material; NULL for nothing. */
 static const char *loss(const struct scene *scene, const struct scene_material *material) {
-  bool srgb;
   bool textured = material->texture >= 0;
-  if (textured && !image_kind(scene->textures[material->texture].path, &srgb))
+  if (textured && !image_kind(scene, material))
     return "POV-Ray does not read its texture: left out";
   if (textured && !grey(material->diffuse))
     return "POV-Ray multiplies a texture by one number: the mean of the diffuse colour";
@@ -166,11 +161,13 @@ static void print_textures(const struct scene *scene, char note[256], FILE *out)
   fputs("  }\n", out);
 }
 
-static void print_list(const char *name, size_t count, const double (*vectors)[3], FILE *out) {
+/* Vectors of so many numbers each, one after the other. */
+static void print_list(const char *name, size_t count, int size, const double *numbers, FILE *out) {
   fprintf(out, "  %s { %zu,\n", name, count);
-  for (size_t k = 0; k < count; ++k)
-    fprintf(out, "    <%.9g, %.9g, %.9g>%s\n", vectors[k][0], vectors[k][1], vectors[k][2],
-            k + 1 < count ? "," : "");
+  for (size_t k = 0; k < count; ++k) {
+    for (int c = 0; c < size; ++c) fprintf(out, "%s%.9g", c ? ", " : "    <", *numbers++);
+    fputs(k + 1 < count ? ">,\n" : ">\n", out);
+  }
   fputs("  }\n", out);
 }
 
@@ -178,15 +175,9 @@ static void print_mesh(const struct scene *scene, char note[256], FILE *out) {
   bool textured = false;
   for (int k = 0; k < scene->material_count; ++k) textured |= scene->materials[k].texture >= 0;
   fputs("mesh2 {\n", out);
-  print_list("vertex_vectors", scene->vertices, (const double(*)[3])scene->position, out);
-  print_list("normal_vectors", scene->vertices, (const double(*)[3])scene->normal, out);
-  if (textured) {
-    fprintf(out, "  uv_vectors { %zu,\n", scene->vertices);
-    for (size_t k = 0; k < scene->vertices; ++k)
-      fprintf(out, "    <%.9g, %.9g>%s\n", scene->uv[k][0], scene->uv[k][1],
-              k + 1 < scene->vertices ? "," : "");
-    fputs("  }\n", out);
-  }
+  print_list("vertex_vectors", scene->vertices, 3, scene->position[0], out);
+  print_list("normal_vectors", scene->vertices, 3, scene->normal[0], out);
+  if (textured) print_list("uv_vectors", scene->vertices, 2, scene->uv[0], out);
   print_textures(scene, note, out);
   fprintf(out, "  face_indices { %zu,\n", scene->triangles);
   for (size_t k = 0; k < scene->triangles; ++k) {

@@ -22,7 +22,6 @@ struct viewer_loop {
   const struct viewer_arguments *arguments;
   const char *keys; /* that are left; NULL: none */
   struct viewer_state state;
-  struct viewer_sum sum; /* that the picture is made by */
   struct viewer_window *window;
   struct viewer_picture picture;
   struct viewer_text text;
@@ -71,11 +70,10 @@ static enum result follow(struct viewer_loop *loop, struct error *error) {
   enum result result = follow_window(loop, error);
   if (result != RESULT_OK) return result;
   follow_lights(loop);
-  if (!same_sum(&loop->sum, &loop->state.sum)) {
+  if (!same_sum(&loop->picture.how, &loop->state.sum)) {
     double views = loop->share * (double)loop->picture.views;
     result = viewer_picture_set_sum(&loop->picture, &loop->state.sum, error);
     if (result != RESULT_OK) return result;
-    loop->sum = loop->state.sum;
     set_share(loop, views / fmax((double)loop->picture.views, 1));
     loop->due = true;
   }
@@ -194,9 +192,8 @@ enum result viewer_loop_run(const struct viewer_arguments *arguments, const stru
     result = viewer_window_create(width, height, &loop.state, &loop.window, error);
   if (result == RESULT_OK) {
     viewer_window_size(loop.window, size);
-    loop.sum = loop.state.sum;
-    result =
-        viewer_picture_create(arguments->world, &loop.sum, size[0], size[1], &loop.picture, error);
+    result = viewer_picture_create(arguments->world, &loop.state.sum, size[0], size[1],
+                                   &loop.picture, error);
   }
   if (result == RESULT_OK) result = viewer_text_create(size[0], size[1], &loop.text, error);
   if (result == RESULT_OK) {
