@@ -99,14 +99,27 @@ void gl_context_free(struct gl_context *context) {
   free(context);
 }
 
-static bool has_float_targets(void) {
-  GLuint texture, target;
+unsigned gl_texture(unsigned target, int filter) {
+  unsigned texture;
   glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, 4, 4);
+  glBindTexture(target, texture);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
+  return texture;
+}
+
+unsigned gl_target(unsigned texture) {
+  unsigned target;
   glGenFramebuffers(1, &target);
   glBindFramebuffer(GL_FRAMEBUFFER, target);
   glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0);
+  return target;
+}
+
+static bool has_float_targets(void) {
+  unsigned texture = gl_texture(GL_TEXTURE_2D, GL_NEAREST);
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, 4, 4);
+  unsigned target = gl_target(texture);
   bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glDeleteFramebuffers(1, &target);

@@ -24,6 +24,11 @@ struct gl_limits {
 /* Checks the current context: version, float targets. */
 enum result gl_context_check(struct gl_limits *limits, struct error *error);
 
+/* A new texture that is read by the filter, GL_NEAREST or GL_LINEAR, and a new frame buffer that
+ * draws into a texture; both are bound. */
+unsigned gl_texture(unsigned target, int filter);
+unsigned gl_target(unsigned texture);
+
 /* As result_fail; adds to the message that --method views needs no OpenGL. */
 enum result gl_fail(struct error *error, enum result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -40,11 +40,8 @@ int gl_maps_most(int size, const struct gl_limits *limits) {
 }
 
 static enum result make_layers(struct gl_maps *maps, struct error *error) {
-  glGenTextures(1, &maps->texture);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, maps->texture);
+  maps->texture = gl_texture(GL_TEXTURE_2D_ARRAY, GL_NEAREST);
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, maps->size, maps->size, maps->room);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glGenFramebuffers(1, &maps->target);
   return gl_check("the shadow maps", error);
 }

@@ -81,13 +81,10 @@ static enum result upload_texture(const struct scene_texture *texture,
   if (picture->width > limits->texture || picture->height > limits->texture)
     return gl_fail(error, RESULT_BAD, "%s: %d x %d pixels; this driver's textures have %d",
                    texture->path, picture->width, picture->height, limits->texture);
-  glGenTextures(1, name);
-  glBindTexture(GL_TEXTURE_2D, *name);
+  *name = gl_texture(GL_TEXTURE_2D, GL_LINEAR);
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGB32F, picture->width, picture->height);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture->width, picture->height, GL_RGB, GL_FLOAT,
                   picture->rgb);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return gl_check(texture->path, error);
 }
 

@@ -4,18 +4,13 @@
 #include "gl/gl_sum.h"
 
 unsigned gl_receivers_texture(int width, int height) {
-  unsigned texture;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
+  unsigned texture = gl_texture(GL_TEXTURE_2D, GL_NEAREST);
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;
 }
 
 enum result gl_receivers_create(int width, int height, const struct gl_limits *limits,
                                 struct gl_receivers *receivers, struct error *error) {
-  static const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   *receivers = (struct gl_receivers){.width = width, .height = height};
   if (width > limits->texture || height > limits->texture)
     return gl_fail(error, RESULT_BAD, "a picture of %d x %d; this driver's textures have %d", width,
@@ -27,10 +22,8 @@ enum result gl_receivers_create(int width, int height, const struct gl_limits *l
   receivers->irradiance = gl_receivers_texture(width, height);
   receivers->gloss = gl_receivers_texture(width, height);
   enum result result = gl_check("the picture", error);
-  glGenFramebuffers(1, &receivers->target);
-  glBindFramebuffer(GL_FRAMEBUFFER, receivers->target);
-  glFramebufferTexture(GL_FRAMEBUFFER, both[0], receivers->irradiance, 0);
-  glFramebufferTexture(GL_FRAMEBUFFER, both[1], receivers->gloss, 0);
+  receivers->target = gl_target(receivers->irradiance);
+  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, receivers->gloss, 0);
   if (result == RESULT_OK && glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     result = gl_fail(error, RESULT_IO, "the driver cannot draw a picture of %d x %d floats", width,
                      height);

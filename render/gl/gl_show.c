@@ -8,19 +8,11 @@
 
 enum { SIDE = 64 }; /* of the samples of a change */
 
-static unsigned make_target(unsigned texture) {
-  unsigned target;
-  glGenFramebuffers(1, &target);
-  glBindFramebuffer(GL_FRAMEBUFFER, target);
-  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0);
-  return target;
-}
-
 enum result gl_show_create(struct gl_show *show, struct error *error) {
   *show = (struct gl_show){0};
   glGenVertexArrays(1, &show->empty);
   show->samples = gl_receivers_texture(SIDE, SIDE);
-  show->few = make_target(show->samples);
+  show->few = gl_target(show->samples);
   enum result result = gl_program_make(gl_all_vert, gl_radiance_frag, "", &show->draw, error);
   if (result == RESULT_OK)
     result = gl_program_make(gl_all_vert, gl_change_frag, "", &show->compare, error);
@@ -59,11 +51,10 @@ enum result gl_show_resize(struct gl_show *show, const struct gl_receivers *rece
   show->full = gl_receivers_texture(show->width, show->height);
   show->lamps = gl_receivers_texture(show->width, show->height);
   show->radiance = gl_receivers_texture(show->width, show->height);
-  show->target = make_target(show->lamps);
+  show->target = gl_target(show->lamps);
   glClearBufferfv(GL_COLOR, 0, nothing);
   glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, show->radiance, 0);
-  glGenTextures(1, &show->words);
-  glBindTexture(GL_TEXTURE_2D, show->words);
+  show->words = gl_texture(GL_TEXTURE_2D, GL_NEAREST);
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, show->width, show->height);
   return gl_check("the picture", error);
 }

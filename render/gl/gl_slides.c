@@ -11,7 +11,7 @@
 struct candidate {
   int i, j;
   int group[2];
-  uint32_t group_key, key;
+  uint64_t key;
 };
 
 /* The bits of both interleaved, the lowest first: neighbours are far apart in the order of such
@@ -27,7 +27,6 @@ static uint32_t spread(int i, int j) {
 
 static int by_key(const void *left, const void *right) {
   const struct candidate *a = left, *b = right;
-  if (a->group_key != b->group_key) return a->group_key < b->group_key ? -1 : 1;
   return (a->key > b->key) - (a->key < b->key);
 }
 
@@ -52,7 +51,7 @@ static int find_views(const struct slab *slab, int groups, bool together, struct
       *view = (struct candidate){.i = i, .j = j, .group = {i, j}, .key = spread(i, j)};
       if (groups > 0 && groups < n[SLAB_U]) view->group[0] = i * groups / n[SLAB_U];
       if (groups > 0 && groups < n[SLAB_V]) view->group[1] = j * groups / n[SLAB_V];
-      if (together) view->group_key = spread(view->group[0], view->group[1]);
+      if (together) view->key |= (uint64_t)spread(view->group[0], view->group[1]) << 32;
     }
   qsort(views, (size_t)count, sizeof *views, by_key);
   return count;
@@ -109,11 +108,8 @@ static void copy_view(const struct slab *slab, const struct candidate *view, dou
 static enum result make_array(const struct slab *slab, const struct candidate *views, double scale,
                               float *pixels, struct gl_slides_array *array, struct error *error) {
   int width = slab->samples[SLAB_S], height = slab->samples[SLAB_T];
-  glGenTextures(1, &array->texture);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, array->texture);
+  array->texture = gl_texture(GL_TEXTURE_2D_ARRAY, GL_LINEAR);
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, width, height, array->count);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   enum result result = gl_check("the lamps", error);
@@ -200,12 +196,10 @@ static enum result check(const struct gl_slides *slides, const struct gl_limits 
   return RESULT_OK;
 }
 
-enum result gl_slides_create(const struct light_page *page, double gain, const double origin[3],
-                             int groups, bool together, const struct gl_limits *limits,
-                             struct gl_slides *slides, struct error *error) {
-  const struct slab *slab = &page->slab;
-  *slides = (struct gl_slides){.page = page, .scale = gain};
-  vector_subtract(page->center, origin, slides->center);
+enum result gl_slides_create(struct gl_slides *slides, const double origin[3], int groups,
+                             bool together, const struct gl_limits *limits, struct error *error) {
+  const struct slab *slab = &slides->page->slab;
+  vector_subtract(slides->page->center, origin, slides->center);
   enum result result = check(slides, limits, error);
   if (result != RESULT_OK) return result;
   size_t views = (size_t)slab->samples[SLAB_U] * (size_t)slab->samples[SLAB_V];

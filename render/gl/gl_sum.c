@@ -13,16 +13,6 @@ enum { GLOSS = 1, SHADOWS = 2 };
 /* Texture units of the programs. */
 enum { POSITION, NORMAL, LIFT, EYE, SLIDES, VIEWS, MAPS };
 
-/* The middle of the pages: positions relative to it are small near them. */
-static void find_origin(const struct gl_sum_settings *settings, double origin[3]) {
-  int count = 0;
-  memset(origin, 0, 3 * sizeof *origin);
-  for (int l = 0; l < settings->light_count; ++l)
-    for (int page = 0; page < settings->lights[l].count; ++page, ++count)
-      for (int c = 0; c < 3; ++c)
-        origin[c] += (settings->lights[l].pages[page].center[c] - origin[c]) / (count + 1);
-}
-
 /* The page itself, or fewer views of it; `number` counts pages through all lights. */
 static const struct light_page *choose_level(const struct gl_sum_settings *settings,
                                              const struct light_page *page, int number) {
@@ -37,36 +27,41 @@ static int count_groups(const struct gl_sum_settings *settings, const struct lig
   return fewer ? settings->groups : axis->near_count;
 }
 
+/* The pages and their middle: positions relative to it are small near them. */
+static void choose_pages(struct gl_sum *sum) {
+  const struct gl_sum_settings *settings = &sum->settings;
+  for (int l = 0; l < settings->light_count; ++l)
+    for (int k = 0; k < settings->lights[l].count; ++k) {
+      const struct light_page *page = &settings->lights[l].pages[k];
+      struct gl_slides *slides = &sum->slides[sum->pages];
+      slides->page = choose_level(settings, page, sum->pages++);
+      slides->scale = settings->lights[l].gain;
+      for (int c = 0; c < 3; ++c) sum->origin[c] += (page->center[c] - sum->origin[c]) / sum->pages;
+    }
+}
+
 /* Is there room for the maps of all groups? */
 static void make_room(struct gl_sum *sum) {
   const struct gl_sum_settings *settings = &sum->settings;
   int64_t all = 0;
-  for (int l = 0, number = 0; l < settings->light_count; ++l)
-    for (int k = 0; k < settings->lights[l].count; ++k, ++number) {
-      const struct light_page *page = choose_level(settings, &settings->lights[l].pages[k], number);
-      all +=
-          (int64_t)count_groups(settings, &page->axes[0]) * count_groups(settings, &page->axes[1]);
-    }
+  for (int k = 0; k < sum->pages; ++k) {
+    const struct light_axis *axes = sum->slides[k].page->axes;
+    all += (int64_t)count_groups(settings, &axes[0]) * count_groups(settings, &axes[1]);
+  }
   sum->maps.room = gl_maps_most(settings->map_size, &sum->limits);
   sum->kept = all <= sum->maps.room;
   if (sum->kept) sum->maps.room = (int)all;
 }
 
 static enum result make_slides(struct gl_sum *sum, struct error *error) {
-  const struct gl_sum_settings *settings = &sum->settings;
-  bool together = settings->occluders && !sum->kept;
+  bool together = sum->settings.occluders && !sum->kept;
   enum result result = RESULT_OK;
-  for (int l = 0; l < settings->light_count && result == RESULT_OK; ++l)
-    for (int k = 0; k < settings->lights[l].count && result == RESULT_OK; ++k) {
-      const struct light *light = &settings->lights[l];
-      const struct light_page *page = choose_level(settings, &light->pages[k], sum->pages);
-      struct gl_slides *slides = &sum->slides[sum->pages];
-      result = gl_slides_create(page, light->gain, sum->origin, settings->groups, together,
-                                &sum->limits, slides, error);
-      if (result != RESULT_OK) break;
-      ++sum->pages;
-      sum->unit = fmax(sum->unit, fabs(slides->scale));
-    }
+  for (int k = 0; k < sum->pages && result == RESULT_OK; ++k) {
+    struct gl_slides *slides = &sum->slides[k];
+    result =
+        gl_slides_create(slides, sum->origin, sum->settings.groups, together, &sum->limits, error);
+    sum->unit = fmax(sum->unit, fabs(slides->scale));
+  }
   if (!(sum->unit > 0)) sum->unit = 1;
   return result;
 }
@@ -77,11 +72,11 @@ enum result gl_sum_create(const struct gl_sum_settings *settings, struct gl_sum 
   *sum = (struct gl_sum){.settings = *settings};
   enum result result = gl_context_check(&sum->limits, error);
   if (result != RESULT_OK) return result;
-  find_origin(settings, sum->origin);
-  if (settings->occluders) make_room(sum);
   sum->slides = calloc((size_t)pages + 1, sizeof *sum->slides);
-  if (!sum->slides) result = result_no_memory(error);
-  if (result == RESULT_OK) result = make_slides(sum, error);
+  if (!sum->slides) return result_no_memory(error);
+  choose_pages(sum);
+  if (settings->occluders) make_room(sum);
+  result = make_slides(sum, error);
   if (result == RESULT_OK && settings->occluders)
     result = gl_maps_create(settings->occluders, sum->origin, settings->map_size, sum->maps.room,
                             &sum->limits, &sum->maps, error);
