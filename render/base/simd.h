@@ -28,6 +28,15 @@ SIMD_INLINE simd_float4 simd_larger(simd_float4 a, simd_float4 b) {
   return (simd_float4)(((simd_int4)a & more) | ((simd_int4)b & ~more));
 }
 
+/* Inlined, unlike fmin and fmax; there are no NaNs. */
+SIMD_INLINE double simd_min(double a, double b) {
+  return a < b ? a : b;
+}
+
+SIMD_INLINE double simd_max(double a, double b) {
+  return a > b ? a : b;
+}
+
 /* Defines `void NAME parameters`, which does what NAME_body does. (The attribute target_clones
  * would be shorter, but clang 14 does not export its functions.) */
 #ifdef __x86_64__

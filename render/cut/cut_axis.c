@@ -124,14 +124,6 @@ enum result cut_axis_make(const struct light_axis *axis, int levels, struct cut_
   return RESULT_OK;
 }
 
-SIMD_INLINE double least(double a, double b) {
-  return a < b ? a : b;
-}
-
-SIMD_INLINE double most(double a, double b) {
-  return a > b ? a : b;
-}
-
 SIMD_INLINE int clamp(int value, int high) {
   return value < 0 ? 0 : value > high ? high : value;
 }
@@ -151,8 +143,8 @@ static bool see(const struct cut_sight *sight, int far_count, struct cut_piece *
     double edge = side ? far_count - 0.5 : -0.5, sign = side ? 1 : -1;
     bool out[2] = {sign * (ends[0] - edge) > 0, sign * (ends[1] - edge) > 0};
     if (out[0] && out[1]) return false;
-    if (out[0]) low = most(low, (edge - sight->place) / sight->rate);
-    if (out[1]) high = least(high, (edge - sight->place) / sight->rate);
+    if (out[0]) low = simd_max(low, (edge - sight->place) / sight->rate);
+    if (out[1]) high = simd_min(high, (edge - sight->place) / sight->rate);
   }
   range->low = low;
   range->high = high;
@@ -176,7 +168,7 @@ SIMD_INLINE void add_cell(const struct cut_interval *interval, const struct cut_
     double up = sight->place + sight->rate * d - cell;
     double value =
         (part->from + cut_gauss_at[g] * (part->to - part->from)) * cut_gauss_weight[g] * unit;
-    float y = (float)(d * interval->per_half), share = (float)least(most(up, 0), 1);
+    float y = (float)(d * interval->per_half), share = (float)simd_min(simd_max(up, 0), 1);
     simd_float4 all = (float)value * (simd_float4){1, y, y * y, y * y * y};
     *lower += all * (1 - share);
     *upper += all * share;
@@ -195,7 +187,7 @@ static void add_cells(const struct cut_interval *interval, const struct cut_sigh
     part.high = piece->high;
     part.to = piece->to;
     if (cell != last) {
-      part.high = least((cell + (step > 0) - sight->place) / sight->rate, piece->high);
+      part.high = simd_min((cell + (step > 0) - sight->place) / sight->rate, piece->high);
       part.to = piece->from + rise * (part.high - piece->low);
     }
     if (part.high > part.low) {
@@ -277,8 +269,8 @@ bool cut_taps_find(const struct cut_interval *interval, const struct cut_sight *
     if (sight->clipped && !see(sight, far_count, piece)) continue;
     double first = sight->place + sight->rate * piece->low;
     double second = sight->place + sight->rate * piece->high;
-    low = least(low, least(first, second));
-    high = most(high, most(first, second));
+    low = simd_min(low, simd_min(first, second));
+    high = simd_max(high, simd_max(first, second));
     ++count;
   }
   taps->count = 0;

@@ -46,7 +46,7 @@ struct cut_error_scratch *cut_error_scratch(const struct cut_tree *tree) {
 }
 
 void cut_error_scratch_free(struct cut_error_scratch *scratch) {
-  if (scratch) cut_lines_free(scratch->lines);
+  if (scratch) free(scratch->lines);
   free(scratch);
 }
 

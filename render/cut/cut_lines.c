@@ -47,10 +47,6 @@ struct cut_lines *cut_lines_make(const struct cut_tree *tree) {
   return made;
 }
 
-void cut_lines_free(struct cut_lines *lines) {
-  free(lines);
-}
-
 /* Integrals of H (a - crossing) and of that times (a - center), over a > crossing; distances are
  * from `center`. */
 static void find_hinge(const struct cut_interval *part, double center, double crossing,

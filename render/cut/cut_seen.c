@@ -143,10 +143,6 @@ static double largest_of(const float *rgb) {
   return (double)(most > rgb[2] ? most : rgb[2]);
 }
 
-static double larger(double a, double b) {
-  return a > b ? a : b;
-}
-
 bool cut_seen_estimate(const struct cut_seen *nodes, int number, const int at[2],
                        struct cut_node *node) {
   const struct cut_tree *tree = nodes->tree;
@@ -159,7 +155,7 @@ bool cut_seen_estimate(const struct cut_seen *nodes, int number, const int at[2]
   const double g = kernel_height(kernel, x, y), per = 1 / (g * square);
   const double per_square = per * g, per_g = per * square;
   const double value = g * per_square * per_square * spot[0]->size * spot[1]->size;
-  const double reach = larger(level->reach[0], level->reach[1]), root = sqrt(square);
+  const double reach = simd_max(level->reach[0], level->reach[1]), root = sqrt(square);
   const double flat = reach * reach * per_square, narrow = reach * root * per_square;
   const double tilt = 1 + nodes->tilt * root * per_g;
   const double mixed =
@@ -186,7 +182,7 @@ bool cut_seen_estimate(const struct cut_seen *nodes, int number, const int at[2]
     node->light = value * cut_mean(estimate);
     double spread =
         level->narrow ? line_error(tree, number, at, spot) : spread_error(nodes, level, estimate);
-    node->spread = value * larger(spread, edge);
+    node->spread = value * simd_max(spread, edge);
   }
   node->curvature = fabs(node->light) * node->curvature_per_light + value * part;
   if (flat > steep) node->curvature += tree->hemisphere;
@@ -311,7 +307,7 @@ bool cut_seen_light(struct cut_seen *nodes, const struct cut_node *node, double 
   for (int c = 0; c < 3; ++c) {
     double more = value * (double)light[c];
     rgb[c] += more;
-    most = larger(most, fabs(more));
+    most = simd_max(most, fabs(more));
   }
   if (most > fabs(node->light)) *error += node->curvature_per_light * (most - fabs(node->light));
   return true;

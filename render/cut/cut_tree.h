@@ -126,8 +126,7 @@ void cut_error_measure(struct cut_tree *tree, int level, const int at[2],
 /* Errors at the lines of axis 0: s, or 1: t, for each st sample, and adds those of the second
  * moments (cut_lines.c). */
 struct cut_lines;
-struct cut_lines *cut_lines_make(const struct cut_tree *tree); /* NULL: no memory */
-void cut_lines_free(struct cut_lines *lines);                  /* NULL allowed */
+struct cut_lines *cut_lines_make(const struct cut_tree *tree); /* for free(); NULL: no memory */
 void cut_lines_measure(const struct cut_tree *tree, int level, const int at[2], int axis,
                        struct cut_lines *lines, simd_float4 *off, simd_float4 *second);
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/array.h"
+#include "base/simd.h"
 
 void strips_free(struct strips *strips) {
   free(strips->strip);
@@ -18,11 +19,6 @@ enum result strips_append(struct strips *strips, const struct strip *strip, stru
     return result_no_memory(error);
   strips->strip[strips->count++] = *strip;
   return RESULT_OK;
-}
-
-/* Inlined, unlike fmin; there are no NaNs. */
-static inline double lesser(double a, double b) {
-  return a < b ? a : b;
 }
 
 /* An axis as one receiver sees it. Slopes x are relative to one ray, which has the slope `base` and
@@ -135,14 +131,14 @@ enum result strips_find(const struct light_axis *axis, double q, double z, struc
   int far, near = 0;
   strips->count = 0;
   if (!start(&sight, &far, &far_high)) return RESULT_OK;
-  double low = 0, high = lesser(near_slope(&sight, axis->near_count), far_high);
+  double low = 0, high = simd_min(near_slope(&sight, axis->near_count), far_high);
   /* Ascending: the piece ends at line `far`; descending: at the line before. */
   int ascending = sight.rate > 0, step = ascending ? 1 : -1;
   int last = ascending ? axis->far_count : 0;
   double near_end = near_slope_or_end(&sight, near);
   double far_end = sight.rate != 0 && far != last ? far_slope(&sight, far - !ascending) : INFINITY;
   while (low < high) {
-    double end = lesser(lesser(near_end, far_end), high);
+    double end = simd_min(simd_min(near_end, far_end), high);
     if (end > low) {
       struct strip strip = {.low = sight.base + low, .high = sight.base + end, .width = end - low};
       set_taps(near, axis->near_count, &strip.taps.near, &strip.taps.near_up);
