@@ -37,10 +37,9 @@ struct gather {
   struct strips whole[2], part[2]; /* what a receiver sees of a page; of one visible part */
   struct visible visible;
   struct cut_work *cut; /* NULL until it is needed; owned */
-  struct cut_counts cut_counts;
+  bool no_memory;       /* for a cut */
   struct row_sum sum;
   struct rule_nodes nodes[2]; /* of METHOD_CLOSED */
-  struct row_sum_counts sum_counts;
 };
 
 enum result gather_create(const struct gather_settings *settings, struct gather **gather,
@@ -213,18 +212,18 @@ static enum result clip(struct gather *gather, const struct visible_rectangle *r
 static bool take_cut(struct gather *gather, const struct look *look, const struct seen_page *seen) {
   static const double gloss[3];
   const struct gather_prepared *prepared = gather->settings->prepared;
+  struct cut_counts counts = {0};
   double irradiance[3];
   if (!prepared || !prepared->trees) return false;
   if (!gather->cut) gather->cut = cut_work_make();
-  if (!gather->cut) {
-    gather->cut_counts.no_memory = true;
-    return false;
-  }
-  if (!cut_sum(prepared->trees[look->page_number], seen, gather->settings->tolerance, gather->cut,
-               irradiance, &gather->cut_counts))
-    return false;
+  bool taken =
+      gather->cut && cut_sum(prepared->trees[look->page_number], seen, gather->settings->tolerance,
+                             gather->cut, irradiance, &counts);
+  gather->no_memory |= !gather->cut || counts.no_memory;
+  if (!taken) return false;
+  gather->counts.nodes += counts.nodes + counts.views;
   add(look, irradiance, gloss);
-  note_error(gather, look, gather->cut_counts.error);
+  note_error(gather, look, counts.error);
   return true;
 }
 
@@ -268,17 +267,16 @@ static enum result sum_strips(struct gather *gather, const struct look *look,
   double irradiance[3] = {0}, gloss[3] = {0};
   enum result result = RESULT_OK;
   if (sum == METHOD_RANDOM) {
-    paper_sum(seen, look->page, strips, seed_of(gather, look), irradiance, gloss,
-              &gather->sum_counts);
+    paper_sum(seen, look->page, strips, seed_of(gather, look), irradiance, gloss, &gather->counts);
   } else if (sum == METHOD_CLOSED) {
-    result = closed_form_sum(seen, strips, gather->nodes, irradiance, &gather->sum_counts, error);
+    result = closed_form_sum(seen, strips, gather->nodes, irradiance, &gather->counts, error);
   } else {
     enum rule rule = sum == METHOD_GAUSS   ? RULE_GAUSS
                      : sum == METHOD_MEANS ? RULE_PI
                      : sum == METHOD_VIEWS ? RULE_VIEWS
                                            : RULE_MIDPOINT;
     result = row_sum_light(&gather->sum, seen, strips, rule, &gather->orders, irradiance, gloss,
-                           &gather->sum_counts, error);
+                           &gather->counts, error);
   }
   if (result == RESULT_OK) add(look, irradiance, gloss);
   return result;
@@ -355,11 +353,7 @@ enum result gather_light(struct gather *gather, const struct receiver *receivers
     }
   }
   gather->counts.receivers += (uint64_t)count;
-  gather->counts.microlights = gather->sum_counts.microlights;
-  gather->counts.nodes =
-      gather->sum_counts.nodes + gather->cut_counts.nodes + gather->cut_counts.views;
-  gather->counts.black = gather->sum_counts.black;
   gather->counts.shadow_rays = gather->visible.shadow_rays;
-  if (result == RESULT_OK && gather->cut_counts.no_memory) result = result_no_memory(error);
+  if (result == RESULT_OK && gather->no_memory) result = result_no_memory(error);
   return result;
 }

@@ -130,7 +130,7 @@ static const double tolerance = 1e-11;
 
 /* A part of a micro light for which one Gauss rule suffices. */
 static void add_part(const struct seen_page *seen, const struct rule_nodes nodes[2],
-                     const int part[2], double weight[4][4], struct row_sum_counts *counts) {
+                     const int part[2], double weight[4][4], struct gather_counts *counts) {
   const struct strip *strips[2];
   int first[2], count[2];
   for (int axis = 0; axis < 2; ++axis) {
@@ -174,7 +174,7 @@ static struct parts next_parts(const struct rule_nodes *nodes, int first,
 static void add_cell(const struct seen_page *seen, const struct strip *u, const struct strip *v,
                      const struct rule_nodes nodes[2], const struct parts parts[2],
                      const float *const rows[4], double irradiance[3],
-                     struct row_sum_counts *counts) {
+                     struct gather_counts *counts) {
   double weight[4][4] = {{0}}, range[2];
   int offset[2];
   kernel_heights(&seen->kernel, (double[2]){u->low, v->low}, (double[2]){u->high, v->high}, range);
@@ -193,7 +193,7 @@ static void add_cell(const struct seen_page *seen, const struct strip *u, const 
 
 enum result closed_form_sum(const struct seen_page *seen, const struct strips strips[2],
                             struct rule_nodes nodes[2], double irradiance[3],
-                            struct row_sum_counts *counts, struct error *error) {
+                            struct gather_counts *counts, struct error *error) {
   const struct rule_orders orders = rule_orders(tolerance);
   for (int axis = 0; axis < 2; ++axis) {
     enum result result = rule_place(&strips[axis], RULE_GAUSS, &orders,

@@ -16,6 +16,6 @@
  * over. `nodes` is scratch. */
 enum result closed_form_sum(const struct seen_page *seen, const struct strips strips[2],
                             struct rule_nodes nodes[2], double irradiance[3],
-                            struct row_sum_counts *counts, struct error *error);
+                            struct gather_counts *counts, struct error *error);
 
 #endif

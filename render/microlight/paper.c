@@ -83,7 +83,7 @@ static void add_cell(const struct seen_page *seen, const struct light_page *fine
 
 void paper_sum(const struct seen_page *seen, const struct light_page *fine,
                const struct strips strips[2], uint64_t seed, double irradiance[3], double gloss[3],
-               struct row_sum_counts *counts) {
+               struct gather_counts *counts) {
   for (int r = 0; r < strips[1].count; ++r)
     for (int c = 0; c < strips[0].count; ++c)
       add_cell(seen, fine, &strips[0].strip[c], &strips[1].strip[r], &seed, irradiance, gloss);

@@ -12,6 +12,6 @@
  * samples: same seed, same samples. */
 void paper_sum(const struct seen_page *seen, const struct light_page *fine,
                const struct strips strips[2], uint64_t seed, double irradiance[3], double gloss[3],
-               struct row_sum_counts *counts);
+               struct gather_counts *counts);
 
 #endif

@@ -114,7 +114,7 @@ static struct span find_span(const struct row_sum *sum, const struct strip *row)
 }
 
 static void sum_single(struct row_sum *sum, const struct span *span, const float *const rows[4],
-                       struct row_sum_counts *counts) {
+                       struct gather_counts *counts) {
   const struct rule_nodes *u = &sum->nodes[0], *v = &sum->nodes[1];
   const struct kernel *kernel = &sum->seen->kernel;
   int first = span->full[0], count = span->full[1] - first;
@@ -131,7 +131,7 @@ static void sum_single(struct row_sum *sum, const struct span *span, const float
 }
 
 static void sum_gauss(struct row_sum *sum, const struct span *span, const float *const rows[4],
-                      struct row_sum_counts *counts) {
+                      struct gather_counts *counts) {
   const struct rule_nodes *u = &sum->nodes[0], *v = &sum->nodes[1];
   const struct kernel *kernel = &sum->seen->kernel;
   int first = u->first[span->full[0]], count = u->first[span->full[1]] - first;
@@ -159,7 +159,7 @@ static void sum_gauss(struct row_sum *sum, const struct span *span, const float 
 
 /* Micro lights that the tangent plane cuts: a few a row. */
 static void sum_cut(struct row_sum *sum, const struct span *span, const float *const rows[4],
-                    struct row_sum_counts *counts) {
+                    struct gather_counts *counts) {
   const struct rule_nodes *u = &sum->nodes[0], *v = &sum->nodes[1];
   const struct strip *row = &v->strips.strip[sum->row];
   const struct kernel *kernel = &sum->seen->kernel;
@@ -208,7 +208,7 @@ static void trim(const struct strips *strips, const struct lit_row *lit, int ran
   *black += (uint64_t)(before - (range[1] - range[0]));
 }
 
-static void add_row(struct row_sum *sum, struct row_sum_counts *counts) {
+static void add_row(struct row_sum *sum, struct gather_counts *counts) {
   const struct strip *row = &sum->nodes[1].strips.strip[sum->row];
   const struct lit_row lit = find_lit(sum->seen, &row->taps);
   struct span span = find_span(sum, row);
@@ -228,7 +228,7 @@ static void add_row(struct row_sum *sum, struct row_sum_counts *counts) {
 enum result row_sum_light(struct row_sum *sum, const struct seen_page *seen,
                           const struct strips strips[2], enum rule rule,
                           const struct rule_orders *orders, double irradiance[3], double gloss[3],
-                          struct row_sum_counts *counts, struct error *error) {
+                          struct gather_counts *counts, struct error *error) {
   sum->seen = seen;
   sum->rule = rule;
   enum result result = prepare(sum, strips, orders, error);

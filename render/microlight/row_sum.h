@@ -10,11 +10,6 @@
 #include "microlight/seen_page.h"
 #include "microlight/taps.h"
 
-struct row_sum_counts {
-  uint64_t microlights, nodes; /* visited */
-  uint64_t black;              /* micro lights that were not: all their samples are 0 */
-};
-
 /* One sum, in memory that the next one uses again: one for each thread, zero-initialised. */
 struct row_sum {
   bool skip_black; /* do not sum what is black; set by the caller */
@@ -44,6 +39,6 @@ void row_sum_free(struct row_sum *sum);
 enum result row_sum_light(struct row_sum *sum, const struct seen_page *seen,
                           const struct strips strips[2], enum rule rule,
                           const struct rule_orders *orders, double irradiance[3], double gloss[3],
-                          struct row_sum_counts *counts, struct error *error);
+                          struct gather_counts *counts, struct error *error);
 
 #endif
