@@ -2,6 +2,7 @@
 #ifndef ARRAY_H
 #define ARRAY_H
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,8 @@
 static inline bool array_reserve(void *array, int *room, int count, size_t size) {
   if (count <= *room) return true;
   void *old;
-  int more = count > 2 * *room + 64 ? count : 2 * *room + 64;
+  int twice = *room < INT_MAX / 2 - 64 ? 2 * *room + 64 : INT_MAX;
+  int more = count > twice ? count : twice;
   memcpy(&old, array, sizeof old);
   void *grown = reallocarray(old, (size_t)more, size);
   if (!grown) return false;

@@ -23,8 +23,7 @@ void scene_free(struct scene *scene) {
 }
 
 bool scene_glossy(const struct scene_material *material) {
-  const double *specular = material->specular;
-  return material->shininess > 0 && (specular[0] != 0 || specular[1] != 0 || specular[2] != 0);
+  return material->shininess > 0 && !vector_is_zero(material->specular);
 }
 
 void scene_box(const struct scene *scene, double low[3], double high[3]) {

@@ -7,14 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "base/vector.h"
 #include "scene/scene_load.h"
 
 struct import {
   struct scene_loading *loading;
   const struct aiScene *from;
-  bool *used; /* [materials] */
-  size_t vertex_room, triangle_room;
+  bool *used;  /* [materials] */
+  int room[5]; /* of the scene's arrays, see reserve */
 };
 
 /* A node's transform, z mirrored; normals are turned by its cofactors, which are right for
@@ -34,14 +35,6 @@ struct instance {
   bool flat; /* gets normals of its own: three vertices for each triangle */
 };
 
-static void placement_place(struct placement *placement) {
-  double rows[3][3];
-  for (int r = 0; r < 3; ++r) memcpy(rows[r], placement->matrix[r], sizeof rows[r]);
-  for (int r = 0; r < 3; ++r)
-    vector_cross(rows[(r + 1) % 3], rows[(r + 2) % 3], placement->cofactor[r]);
-  placement->side = vector_dot(rows[0], placement->cofactor[0]) < 0 ? -1 : 1;
-}
-
 static struct placement placement_child(const struct placement *parent,
                                         const struct aiMatrix4x4 *m) {
   const double child[4][4] = {
@@ -54,7 +47,10 @@ static struct placement placement_child(const struct placement *parent,
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 4; ++c)
       for (int k = 0; k < 4; ++k) placement.matrix[r][c] += parent->matrix[r][k] * child[k][c];
-  placement_place(&placement);
+  for (int r = 0; r < 3; ++r)
+    vector_cross(placement.matrix[(r + 1) % 3], placement.matrix[(r + 2) % 3],
+                 placement.cofactor[r]);
+  placement.side = vector_dot(placement.matrix[0], placement.cofactor[0]) < 0 ? -1 : 1;
   return placement;
 }
 
@@ -76,36 +72,22 @@ static bool mesh_normal(const struct instance *instance, unsigned vertex, double
   return vector_normalise(out);
 }
 
-/* `array` is the address of a pointer of any type. */
-static bool grow(void *array, size_t room, size_t size) {
-  void *old;
-  memcpy(&old, array, sizeof old);
-  void *grown = reallocarray(old, room, size);
-  if (grown) memcpy(array, &grown, sizeof grown);
-  // cppcheck-suppress memleak ; *array has it
-  return grown != NULL;
-}
-
 static enum result reserve(struct import *import, size_t vertices, size_t triangles,
                            struct error *error) {
   struct scene *scene = import->loading->scene;
-  bool surfaces = import->loading->needs == SCENE_SURFACES, good = true;
-  if (scene->vertices + vertices > INT_MAX || scene->triangles + triangles > INT_MAX)
+  int *room = import->room;
+  vertices += scene->vertices;
+  triangles += scene->triangles;
+  if (vertices > INT_MAX || triangles > INT_MAX)
     return result_fail(error, RESULT_BAD, "%s: has more than %d vertices or triangles",
                        import->loading->path, INT_MAX);
-  if (scene->vertices + vertices > import->vertex_room) {
-    size_t room = scene->vertices + vertices + import->vertex_room;
-    good = grow(&scene->position, room, sizeof *scene->position);
-    if (surfaces) good = good && grow(&scene->normal, room, sizeof *scene->normal);
-    if (surfaces) good = good && grow(&scene->uv, room, sizeof *scene->uv);
-    if (good) import->vertex_room = room;
-  }
-  if (good && scene->triangles + triangles > import->triangle_room) {
-    size_t room = scene->triangles + triangles + import->triangle_room;
-    good = grow(&scene->corners, room, sizeof *scene->corners);
-    if (surfaces) good = good && grow(&scene->material, room, sizeof *scene->material);
-    if (good) import->triangle_room = room;
-  }
+  int v = (int)vertices, t = (int)triangles;
+  bool good = array_reserve(&scene->position, &room[0], v, sizeof *scene->position) &&
+              array_reserve(&scene->corners, &room[1], t, sizeof *scene->corners);
+  if (good && import->loading->needs == SCENE_SURFACES)
+    good = array_reserve(&scene->normal, &room[2], v, sizeof *scene->normal) &&
+           array_reserve(&scene->uv, &room[3], v, sizeof *scene->uv) &&
+           array_reserve(&scene->material, &room[4], t, sizeof *scene->material);
   return good ? RESULT_OK
               : result_fail(error, RESULT_MEMORY, "%s: out of memory", import->loading->path);
 }

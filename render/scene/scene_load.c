@@ -57,23 +57,17 @@ static enum result find_format(struct scene_loading *loading, struct error *erro
 static enum result import(struct scene_loading *loading, struct error *error) {
   enum result result = scene_text_read(loading, error);
   if (result != RESULT_OK) return result;
-  bool *used = NULL;
   const struct aiScene *from = aiImportFile(loading->path, aiProcess_Triangulate);
-  if (!from) {
+  bool *used = from ? calloc((size_t)from->mNumMaterials + 1, sizeof *used) : NULL;
+  if (!from)
     result = result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: %s", loading->path,
                          aiGetErrorString());
-    goto out;
-  }
-  used = calloc((size_t)from->mNumMaterials + 1, sizeof *used);
-  if (!used) {
+  else if (!used)
     result = result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
-    goto out;
-  }
-  result = scene_import_meshes(loading, from, used, error);
+  if (result == RESULT_OK) result = scene_import_meshes(loading, from, used, error);
   if (result == RESULT_OK && loading->repair) result = scene_repair(loading, error);
   if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
     result = scene_import_materials(loading, from, used, error);
-out:
   free(used);
   if (from) aiReleaseImport(from);
   return result;

@@ -8,6 +8,7 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "base/array.h"
 #include "file/slab_image.h"
 #include "scene/scene_load.h"
 
@@ -56,23 +57,20 @@ static enum result find_texture(const struct scene_loading *loading, const struc
   } else {
     path = texture_path(loading, name);
   }
-  if (!path) return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
-  for (int k = 0; k < scene->texture_count; ++k)
+  int count = scene->texture_count, room = count;
+  for (int k = 0; path && k < count; ++k)
     if (strcmp(scene->textures[k].path, path) == 0) {
       *number = k;
       free(path);
       return RESULT_OK;
     }
-  struct scene_texture *grown =
-      reallocarray(scene->textures, (size_t)scene->texture_count + 1, sizeof *grown);
-  if (!grown) {
+  if (!path || !array_reserve(&scene->textures, &room, count + 1, sizeof *scene->textures)) {
     free(path);
     return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
   }
-  scene->textures = grown;
   *number = scene->texture_count++;
-  grown[*number] = (struct scene_texture){.path = path};
-  return read_picture(loading, embedded, &grown[*number], error);
+  scene->textures[count] = (struct scene_texture){.path = path};
+  return read_picture(loading, embedded, &scene->textures[count], error);
 }
 
 static const char *mesh_of(const struct aiScene *from, unsigned material) {

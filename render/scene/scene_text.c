@@ -180,22 +180,18 @@ static enum result read_gltf(struct scene_loading *loading, struct error *error)
   enum result result = RESULT_OK;
   char *text = malloc(OVERLAP + CHUNK);
   FILE *file = fopen(loading->path, "re");
-  if (!text || !file) {
-    result = result_fail(error, RESULT_IO, "%s: %s", loading->path, strerror(errno));
-    goto out;
-  }
-  for (size_t kept = 0, got; (got = fread(text + kept, 1, CHUNK, file)) > 0;) {
+  bool good = text && file;
+  for (size_t kept = 0, got; good && (got = fread(text + kept, 1, CHUNK, file)) > 0;) {
     size_t size = kept + got;
     for (size_t k = 0; k < sizeof unread / sizeof *unread; ++k)
       found[k] |= memmem(text, size, unread[k], strlen(unread[k])) != NULL;
     kept = size < OVERLAP ? size : OVERLAP;
     memmove(text, text + size - kept, kept);
   }
-  if (ferror(file))
+  if (!good || ferror(file))
     result = result_fail(error, RESULT_IO, "%s: %s", loading->path, strerror(errno));
   for (size_t k = 0; k < sizeof unread / sizeof *unread && result == RESULT_OK; ++k)
     if (found[k]) result = scene_unread(loading, error, "%s: has %s", loading->path, unread[k]);
-out:
   free(text);
   if (file) fclose(file);
   return result;
