@@ -9,6 +9,10 @@ static inline double vector_dot(const double x[3], const double y[3]) {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
+static inline bool vector_is_zero(const double x[3]) {
+  return x[0] == 0 && x[1] == 0 && x[2] == 0;
+}
+
 static inline void vector_cross(const double x[3], const double y[3], double out[3]) {
   double z[3] = {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
   for (int c = 0; c < 3; ++c) out[c] = z[c];

@@ -44,7 +44,6 @@ struct work {
   struct gather_settings settings;
   struct gather **gather; /* [threads] */
   struct gl_gather *gl;   /* method gl, in place of `gather` */
-  int threads;
   struct receivers receivers;
   struct gathered *gathered; /* [BLOCK] */
 };
@@ -81,7 +80,7 @@ static enum result answer(struct work *work, struct error *error) {
     if (result == RESULT_OK && work->gl)
       result = gl_gather_light(work->gl, work->receivers.receiver, count, work->gathered, error);
     else if (result == RESULT_OK)
-      result = tiles_run(work->threads, tiles, work_tile, NULL, work, error);
+      result = tiles_run(work->world->options.threads, tiles, work_tile, NULL, work, error);
     for (int k = 0; k < count && result == RESULT_OK; ++k) {
       const double *rgb = work->gathered[k].irradiance;
       printf("%.9g %.9g %.9g\n", rgb[0], rgb[1], rgb[2]);
@@ -95,17 +94,17 @@ static enum result prepare(struct work *work, struct error *error) {
   enum result result = world_prepare(world, 0, error);
   if (result != RESULT_OK) return result;
   work->settings = world_gather(world, true);
-  work->gather = calloc((size_t)work->threads, sizeof *work->gather);
+  work->gather = calloc((size_t)work->world->options.threads, sizeof *work->gather);
   work->gathered = calloc(BLOCK, sizeof *work->gathered);
   if (!work->gather || !work->gathered) return result_no_memory(error);
   const struct gl_sum_settings gl = world_gl(world, world->occlusion != NULL);
   if (gather_methods[world->options.method].sum == METHOD_OPENGL)
     return gl_gather_create(&gl, &work->gl, error);
-  return gather_create_all(&work->settings, work->threads, work->gather, error);
+  return gather_create_all(&work->settings, work->world->options.threads, work->gather, error);
 }
 
 static void finish(struct work *work, struct stats *stats) {
-  if (work->gather) gather_free_all(work->gather, work->threads, &stats->counts);
+  if (work->gather) gather_free_all(work->gather, work->world->options.threads, &stats->counts);
   if (work->gl) gather_counts_add(&stats->counts, gl_gather_counts(work->gl));
   gl_gather_free(work->gl);
   free(work->gather);
@@ -116,7 +115,7 @@ static void finish(struct work *work, struct stats *stats) {
 static enum result run(void *input, struct error *error) {
   struct world *world = input;
   const char *mesh = world->view.mesh;
-  struct work work = {.world = world, .threads = world->options.threads};
+  struct work work = {.world = world};
   struct stats stats = stats_start();
   enum result result = world_load_lights(world, &world->options.stats, 1, error);
   if (result == RESULT_OK && mesh) result = world_load_scene(world, SCENE_SHAPE, error);

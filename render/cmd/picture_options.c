@@ -17,16 +17,9 @@ static const struct argp_option options_list[] = {
 static const struct value values[] = {
     {OPTION_SIZE, VALUE_SIZE, offsetof(struct picture_options, size), 0, 0}, {0}};
 
-static void parse_camera(const char *text, struct picture_options *options,
-                         struct argp_state *state) {
-  struct error error;
-  if (camera_parse(text, &options->camera, &error) != RESULT_OK)
-    argp_error(state, "%s", error.text);
-  options->camera_given = true;
-}
-
 static error_t parse(int key, char *value, struct argp_state *state) {
   struct picture_options *options = state->input;
+  struct error error;
   switch (key) {
   case ARGP_KEY_INIT:
     if (options->size[0] > 0) return 0;
@@ -34,7 +27,9 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     options->size[1] = 480;
     return 0;
   case OPTION_CAMERA:
-    parse_camera(value, options, state);
+    if (camera_parse(value, &options->camera, &error) != RESULT_OK)
+      argp_error(state, "%s", error.text);
+    options->camera_given = true;
     return 0;
   case OPTION_BACKGROUND:
     if (!numbers_real(value, 3, options->background))

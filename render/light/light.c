@@ -131,18 +131,6 @@ void light_page_free(struct light_page *page) {
   slab_free(&page->slab);
 }
 
-static enum result set_axes(struct light_page *page, double scale, struct error *error) {
-  const struct slab *slab = &page->slab;
-  for (int k = 0; k < 2; ++k) {
-    struct light_axis *axis = &page->axes[k];
-    axis->half = scale * vector_length(k ? slab->v : slab->u) / 2;
-    axis->far_low = slab->st_window[2 * k];
-    axis->far_high = slab->st_window[2 * k + 1];
-    axis->kappa = slab_kappa(slab) / scale;
-  }
-  return light_page_set_samples(page, error);
-}
-
 /* Places the page. False where the result is not finite. */
 static bool set_frame(const double matrix[4][3], struct light_page *page) {
   const double *axes[3] = {page->slab.u, page->slab.v, page->slab.normal};
@@ -159,8 +147,16 @@ static bool set_frame(const double matrix[4][3], struct light_page *page) {
 
 static enum result set_page(const char *text, const struct light *light, struct light_page *page,
                             struct error *error) {
+  const struct slab *slab = &page->slab;
   bool finite = set_frame(light->matrix, page);
-  enum result result = set_axes(page, light->scale, error);
+  for (int k = 0; k < 2; ++k) {
+    struct light_axis *axis = &page->axes[k];
+    axis->half = light->scale * vector_length(k ? slab->v : slab->u) / 2;
+    axis->far_low = slab->st_window[2 * k];
+    axis->far_high = slab->st_window[2 * k + 1];
+    axis->kappa = slab_kappa(slab) / light->scale;
+  }
+  enum result result = light_page_set_samples(page, error);
   if (result != RESULT_OK) return result;
   for (int k = 0; k < 2; ++k) {
     const struct light_axis *axis = &page->axes[k];
@@ -176,23 +172,21 @@ enum result light_load(const char *text, struct light *light, struct error *erro
   *light = (struct light){0};
   enum result result = light_text_parse(text, &where, error);
   if (result != RESULT_OK) return result;
-  result = slab_file_load_all(where.path, &slabs, &light->count, error);
-  if (result != RESULT_OK) goto out;
   light->path = where.path;
-  where.path = NULL;
-  light->pages = calloc((size_t)light->count, sizeof *light->pages);
-  if (!light->pages) {
-    slab_file_free_all(slabs, light->count);
-    result = result_no_memory(error);
-    goto out;
+  result = slab_file_load_all(where.path, &slabs, &light->count, error);
+  if (result == RESULT_OK) {
+    light->pages = calloc((size_t)light->count, sizeof *light->pages);
+    if (!light->pages) result = result_no_memory(error);
   }
-  for (int page = 0; page < light->count; ++page) light->pages[page].slab = slabs[page];
-  free(slabs); /* the pages have taken over what they own */
-  result = place(text, &where, light, error);
+  for (int page = 0; light->pages && page < light->count; ++page)
+    light->pages[page].slab = slabs[page];
+  if (light->pages)
+    free(slabs); /* the pages have taken over what they own */
+  else
+    slab_file_free_all(slabs, light->count);
+  if (result == RESULT_OK) result = place(text, &where, light, error);
   for (int page = 0; page < light->count && result == RESULT_OK; ++page)
     result = set_page(text, light, &light->pages[page], error);
-out:
-  light_text_free(&where);
   if (result != RESULT_OK) light_free(light);
   return result;
 }

@@ -10,13 +10,11 @@ static bool halved(const struct slab *slab, int axis) {
   return axis == SLAB_U || axis == SLAB_V || isfinite(slab->st_distance);
 }
 
-/* The level above `below`; false in *more where there is none. */
-static enum result halve(const struct light_page *below, struct light_page *page, bool *more,
+/* The level above `below`. */
+static enum result halve(const struct light_page *below, struct light_page *page,
                          struct error *error) {
   int samples[SLAB_AXES];
   const struct slab *slab = &below->slab;
-  *more = slab->samples[SLAB_U] > 1 || slab->samples[SLAB_V] > 1;
-  if (!*more) return RESULT_OK;
   for (int axis = 0; axis < SLAB_AXES; ++axis)
     samples[axis] = halved(slab, axis) ? (slab->samples[axis] + 1) / 2 : slab->samples[axis];
   *page = *below;
@@ -30,15 +28,14 @@ static enum result halve(const struct light_page *below, struct light_page *page
 
 enum result levels_build(const struct light_page *page, struct levels *levels,
                          struct error *error) {
-  enum { MOST = 32 };
+  enum { MOST = 32 }; /* an int has no more bits */
   enum result result = RESULT_OK;
-  bool more = true;
   *levels = (struct levels){.page = calloc(MOST, sizeof *levels->page)};
   if (!levels->page) return result_no_memory(error);
-  for (const struct light_page *below = page; result == RESULT_OK && levels->count < MOST;) {
-    result = halve(below, &levels->page[levels->count], &more, error);
-    if (result != RESULT_OK || !more) break;
-    below = &levels->page[levels->count++];
+  while (result == RESULT_OK &&
+         (page->slab.samples[SLAB_U] > 1 || page->slab.samples[SLAB_V] > 1)) {
+    result = halve(page, &levels->page[levels->count], error);
+    if (result == RESULT_OK) page = &levels->page[levels->count++];
   }
   if (result != RESULT_OK) levels_free(levels);
   return result;

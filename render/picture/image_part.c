@@ -8,9 +8,8 @@ enum result image_part_create(size_t most, struct image_part *part, struct error
   *part = (struct image_part){.hits = calloc(most, sizeof *part->hits),
                               .receivers = calloc(most, sizeof *part->receivers),
                               .gathered = calloc(most, sizeof *part->gathered),
-                              .sum = calloc(most, sizeof *part->sum),
-                              .error = calloc(most, sizeof *part->error)};
-  if (part->hits && part->receivers && part->gathered && part->sum && part->error) return RESULT_OK;
+                              .sums = calloc(most, sizeof *part->sums)};
+  if (part->hits && part->receivers && part->gathered && part->sums) return RESULT_OK;
   return result_no_memory(error);
 }
 
@@ -18,8 +17,7 @@ void image_part_free(struct image_part *part) {
   free(part->hits);
   free(part->receivers);
   free(part->gathered);
-  free(part->sum);
-  free(part->error);
+  free(part->sums);
   *part = (struct image_part){0};
 }
 
@@ -28,8 +26,7 @@ static int count_pixels(const struct image_part *part) {
 }
 
 void image_part_clear(struct image_part *part) {
-  memset(part->sum, 0, (size_t)count_pixels(part) * sizeof *part->sum);
-  memset(part->error, 0, (size_t)count_pixels(part) * sizeof *part->error);
+  memset(part->sums, 0, (size_t)count_pixels(part) * sizeof *part->sums);
 }
 
 void image_part_trace(const struct shade *shade, int grid, int sample, int first, int end,
@@ -59,8 +56,8 @@ double image_part_add(struct image_part *part) {
     double rgb[3], error[3];
     shade_radiance(hit, gathered, rgb, error);
     for (int c = 0; c < 3; ++c) {
-      part->sum[pixel][c] += rgb[c];
-      part->error[pixel][c] += error[c];
+      part->sums[pixel].rgb[c] += rgb[c];
+      part->sums[pixel].error[c] += error[c];
     }
     if (gathered) worst = fmax(worst, gathered->error);
   }
@@ -74,9 +71,9 @@ double image_part_store(const struct image_part *part, int samples, struct pictu
     size_t y = (size_t)(part->top + pixel / part->width);
     size_t first = 3 * (y * (size_t)picture->width + x);
     for (size_t c = 0; c < 3; ++c) {
-      picture->rgb[first + c] = (float)(part->sum[pixel][c] / samples);
-      picture->error[first + c] = (float)(part->error[pixel][c] / samples);
-      sum += part->error[pixel][c] / samples;
+      picture->rgb[first + c] = (float)(part->sums[pixel].rgb[c] / samples);
+      picture->error[first + c] = (float)(part->sums[pixel].error[c] / samples);
+      sum += part->sums[pixel].error[c] / samples;
     }
   }
   return sum;

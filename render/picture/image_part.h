@@ -11,7 +11,9 @@ struct image_part {
   struct shade_hit *hits;       /* these and all below: of each pixel, row by row; owned */
   struct receiver *receivers;   /* of those that are lit */
   struct gathered *gathered;    /* by the receivers */
-  double (*sum)[3], (*error)[3];
+  struct image_part_sum {
+    double rgb[3], error[3];
+  } * sums;
 };
 
 /* For up to `most` pixels. Freed with image_part_free, also after a failure. */

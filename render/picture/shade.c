@@ -7,10 +7,6 @@
 #include "scene/scene.h"
 #include "shadow/occlusion.h"
 
-static bool any(const double rgb[3]) {
-  return rgb[0] != 0 || rgb[1] != 0 || rgb[2] != 0;
-}
-
 static void turn_towards(const double eye[3], double normal[3]) {
   if (vector_dot(eye, normal) >= 0) return;
   for (int c = 0; c < 3; ++c) normal[c] = -normal[c];
@@ -25,7 +21,7 @@ static void shade_surface(const struct shade *shade, const struct occlusion_hit 
   scene_diffuse(scene, met->triangle, met->share, hit->diffuse);
   bool gloss = scene_glossy(material);
   if (gloss) memcpy(hit->specular, material->specular, sizeof hit->specular);
-  hit->lit = gloss || any(hit->diffuse);
+  hit->lit = gloss || !vector_is_zero(hit->diffuse);
   if (!hit->lit) return;
   scene_point(scene, met->triangle, met->share, receiver->position, receiver->normal,
               receiver->lift);

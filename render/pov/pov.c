@@ -112,7 +112,7 @@ static void print_texture(const struct scene *scene, const struct scene_material
                           FILE *out) {
   bool gloss = scene_glossy(material);
   const double *glow = material->emission;
-  bool shines = glow[0] != 0 || glow[1] != 0 || glow[2] != 0;
+  bool shines = !vector_is_zero(glow);
   double twice = shines ? 2 : 1;
   fputs("    texture { ", out);
   if (shines) fputs("average texture_map {\n      [1 ", out);

@@ -10,11 +10,8 @@ static char *with_suffix(const char *path, const char *suffix) {
   const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
   const char *dot = strrchr(base, '.');
   size_t length = dot && dot > base ? (size_t)(dot - path) : strlen(path);
-  char *changed = malloc(length + strlen(suffix) + 1);
-  if (!changed) return NULL;
-  memcpy(changed, path, length);
-  strcpy(changed + length, suffix);
-  return changed;
+  char *changed;
+  return asprintf(&changed, "%.*s%s", (int)length, path, suffix) < 0 ? NULL : changed;
 }
 
 /* The name in "#macro NAME_Canned(Scale, Gain)", which may differ from the slab's (bakeslab

@@ -1,6 +1,4 @@
 /* tradeoff_ladder.c - the settings at which methods are measured. */
-#include <string.h>
-
 #include "tradeoff/tradeoff.h"
 
 /* The commands' default, of methods that have another dial. */
@@ -17,13 +15,12 @@ struct ladder {
 
 static void add(struct ladder *ladder, enum gather_method method, double tolerance, int level) {
   if (ladder->count == TRADEOFF_MOST_RUNGS) return;
-  struct tradeoff_rung *rung = &ladder->rungs[ladder->count++];
-  memset(rung, 0, sizeof *rung);
-  rung->method = method;
-  rung->tolerance = tolerance;
-  rung->level = level;
-  rung->shadow_grid = ladder->usual->shadow_grid;
-  rung->shadow_edge = ladder->usual->shadow_edge;
+  ladder->rungs[ladder->count++] =
+      (struct tradeoff_rung){.method = method,
+                             .tolerance = tolerance,
+                             .level = level,
+                             .shadow_grid = ladder->usual->shadow_grid,
+                             .shadow_edge = ladder->usual->shadow_edge};
 }
 
 /* 0.1, 0.03, 0.01, 0.003, ... */

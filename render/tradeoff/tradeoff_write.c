@@ -69,19 +69,22 @@ static void print_head(FILE *file, const struct tradeoff_settings *settings,
     fprintf(file, "# %s\n", explained[k]);
 }
 
+/* With so many digits; - where there is none. */
+static void print_number(FILE *file, bool there, int digits, double number) {
+  if (there)
+    fprintf(file, "%.*g\t", digits, number);
+  else
+    fputs("-\t", file);
+}
+
 static void print_setting(FILE *file, const struct tradeoff_settings *settings,
                           const struct tradeoff_rung *rung) {
   fprintf(file, "%s\t", gather_methods[rung->method].name);
-  if (rung->tolerance > 0)
-    fprintf(file, "%.3g\t", rung->tolerance);
-  else
-    fputs("-\t", file);
-  if (rung->level == TRADEOFF_NO_LEVEL)
-    fputs("-\t", file);
-  else if (rung->level < 0)
+  print_number(file, rung->tolerance > 0, 3, rung->tolerance);
+  if (rung->level == -1)
     fputs("auto\t", file);
   else
-    fprintf(file, "%d\t", rung->level);
+    print_number(file, rung->level != TRADEOFF_NO_LEVEL, 3, rung->level);
   if (settings->gather.occlusion)
     fprintf(file, "%d/%d\t", rung->shadow_grid, rung->shadow_edge);
   else
@@ -94,14 +97,9 @@ static void print_rung(FILE *file, const struct tradeoff_rung *rung,
   fprintf(file, "%.4g\t%.4g\t%.4g\t%.4g\t%.4g\t%.4g\t", rung->cpu.middle, rung->cpu.low,
           rung->cpu.high, rung->wall.middle, rung->wall.low, rung->wall.high);
   fprintf(file, "%.4g\t%.4g\t", rung->error.rms, rung->error.most);
-  if (rung->shadows)
-    fputs("-\t-\t", file);
-  else
-    fprintf(file, "%.4g\t%.4g\t", rung->sum.rms, rung->sum.most);
-  if (isfinite(counts->error))
-    fprintf(file, "%.4g\t", counts->error);
-  else
-    fputs("-\t", file);
+  print_number(file, !rung->shadows, 4, rung->sum.rms);
+  print_number(file, !rung->shadows, 4, rung->sum.most);
+  print_number(file, isfinite(counts->error), 4, counts->error);
   fprintf(file, "%llu\t%llu\t%llu\t%zu\t%.4g\n", (unsigned long long)counts->microlights,
           (unsigned long long)counts->nodes, (unsigned long long)counts->shadow_rays,
           prepared->bytes, prepared->cpu);

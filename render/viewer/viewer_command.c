@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/vector.h"
 #include "cli/cli.h"
 
 /* A blank and a word, quoted where it must be. */
@@ -66,7 +67,7 @@ char *viewer_command(const struct viewer_arguments *arguments, const struct view
   add_camera(out, &state->camera);
   add_sum(out, world, &state->sum);
   fprintf(out, " --size %dx%d", width, height);
-  if (behind[0] != 0 || behind[1] != 0 || behind[2] != 0)
+  if (!vector_is_zero(behind))
     add_word(out, "--background=%.9g,%.9g,%.9g", behind[0], behind[1], behind[2]);
   if (arguments->repair) fprintf(out, " --repair");
   fprintf(out, " -o");

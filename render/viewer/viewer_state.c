@@ -106,16 +106,6 @@ static void arrow_camera(struct viewer_state *state, int key, bool shift) {
     viewer_camera_orbit(camera, right * step_angle, up * step_angle);
 }
 
-/* 1, 2, 4, 8, 16, each view. */
-static int more_groups(int groups) {
-  return groups < MOST_GROUPS && groups > 0 ? 2 * groups : 0;
-}
-
-static int fewer_groups(int groups) {
-  if (groups == 0) return MOST_GROUPS;
-  return groups > 1 ? groups / 2 : 1;
-}
-
 static void reset(struct viewer_state *state) {
   state->camera = state->first;
   for (int k = 0; k < state->light_count; ++k)
@@ -123,6 +113,7 @@ static void reset(struct viewer_state *state) {
 }
 
 static void press_letter(struct viewer_state *state, int key) {
+  int *groups = &state->sum.groups; /* 1, 2, 4, 8, 16, each view */
   if (key >= '0' && key <= '9' && key - '0' <= state->light_count) state->selected = key - '0';
   switch (key) {
   case 'v':
@@ -132,10 +123,10 @@ static void press_letter(struct viewer_state *state, int key) {
     if (state->sum.level > 0) --state->sum.level;
     return;
   case 'g':
-    state->sum.groups = fewer_groups(state->sum.groups);
+    *groups = *groups == 0 ? MOST_GROUPS : *groups > 1 ? *groups / 2 : 1;
     return;
   case 'G':
-    state->sum.groups = more_groups(state->sum.groups);
+    *groups = *groups < MOST_GROUPS ? 2 * *groups : 0;
     return;
   case 'd':
     state->sum.shadows = !state->sum.shadows;
