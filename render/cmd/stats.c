@@ -42,7 +42,6 @@ void stats_effect(struct stats *stats, const char *name, bool simulated, const c
 
 static json_t *object_of(const struct stats *stats, const struct options *options) {
   const struct gather_counts *counts = &stats->counts;
-  double error = isfinite(counts->error) ? counts->error : -1;
   json_t *object = json_object();
   json_object_set_new(object, "command", json_any_string(cli_command_line()));
   json_object_set_new(object, "method", json_string(gather_methods[options->method].name));
@@ -57,7 +56,8 @@ static json_t *object_of(const struct stats *stats, const struct options *option
   json_object_set_new(object, "open_views", json_integer((json_int_t)counts->open_views));
   json_object_set_new(object, "pages_behind", json_integer((json_int_t)counts->pages_behind));
   json_object_set(object, "effects", stats->effects);
-  json_object_set_new(object, "error_estimate", error < 0 ? json_null() : json_real(error));
+  json_object_set_new(object, "error_estimate",
+                      isfinite(counts->error) ? json_real(counts->error) : json_null());
   return object;
 }
 

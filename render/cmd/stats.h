@@ -32,7 +32,8 @@ struct stats {
 /* In the phase "load". To be followed by stats_end. */
 struct stats stats_start(void);
 
-/* Ends the phase that goes on, if any, and starts the next, of another name than all before. */
+/* Ends the phase that goes on, if any, and starts the next, of another name than all before; NULL:
+ * none. */
 void stats_phase(struct stats *stats, const char *name);
 
 /* Says whether an effect was simulated, and why. */
