@@ -27,30 +27,29 @@ static int count_groups(const struct gl_sum_settings *settings, const struct lig
   return fewer ? settings->groups : axis->near_count;
 }
 
-/* The pages and their middle: positions relative to it are small near them. */
-static void choose_pages(struct gl_sum *sum) {
+/* The pages and their middle: positions relative to it are small near them. Returns the number of
+ * their groups. */
+static int64_t choose_pages(struct gl_sum *sum) {
   const struct gl_sum_settings *settings = &sum->settings;
+  int64_t groups = 0;
   for (int l = 0; l < settings->light_count; ++l)
     for (int k = 0; k < settings->lights[l].count; ++k) {
-      const struct light_page *page = &settings->lights[l].pages[k];
-      struct gl_slides *slides = &sum->slides[sum->pages];
-      slides->page = choose_level(settings, page, sum->pages++);
-      slides->scale = settings->lights[l].gain;
+      const struct light_page *whole = &settings->lights[l].pages[k];
+      const struct light_page *page = choose_level(settings, whole, sum->pages);
+      groups +=
+          (int64_t)count_groups(settings, &page->axes[0]) * count_groups(settings, &page->axes[1]);
+      sum->slides[sum->pages++] =
+          (struct gl_slides){.page = page, .scale = settings->lights[l].gain};
       for (int c = 0; c < 3; ++c) sum->origin[c] += (page->center[c] - sum->origin[c]) / sum->pages;
     }
+  return groups;
 }
 
 /* Is there room for the maps of all groups? */
-static void make_room(struct gl_sum *sum) {
-  const struct gl_sum_settings *settings = &sum->settings;
-  int64_t all = 0;
-  for (int k = 0; k < sum->pages; ++k) {
-    const struct light_axis *axes = sum->slides[k].page->axes;
-    all += (int64_t)count_groups(settings, &axes[0]) * count_groups(settings, &axes[1]);
-  }
-  sum->maps.room = gl_maps_most(settings->map_size, &sum->limits);
-  sum->kept = all <= sum->maps.room;
-  if (sum->kept) sum->maps.room = (int)all;
+static void make_room(struct gl_sum *sum, int64_t groups) {
+  sum->maps.room = gl_maps_most(sum->settings.map_size, &sum->limits);
+  sum->kept = groups <= sum->maps.room;
+  if (sum->kept) sum->maps.room = (int)groups;
 }
 
 static enum result make_slides(struct gl_sum *sum, struct error *error) {
@@ -74,8 +73,8 @@ enum result gl_sum_create(const struct gl_sum_settings *settings, struct gl_sum 
   if (result != RESULT_OK) return result;
   sum->slides = calloc((size_t)pages + 1, sizeof *sum->slides);
   if (!sum->slides) return result_no_memory(error);
-  choose_pages(sum);
-  if (settings->occluders) make_room(sum);
+  const int64_t groups = choose_pages(sum);
+  if (settings->occluders) make_room(sum, groups);
   result = make_slides(sum, error);
   if (result == RESULT_OK && settings->occluders)
     result = gl_maps_create(settings->occluders, sum->origin, settings->map_size, sum->maps.room,
