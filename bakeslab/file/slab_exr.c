@@ -63,10 +63,11 @@ static int64_t query_size(exr_const_context_t context, void *data) {
   return fstat(exr->fd, &status) == 0 ? (int64_t)status.st_size : -1;
 }
 
-/* What the library found wrong with a part. */
+/* What the library found wrong. */
 static enum result fail(const struct slab_exr *exr, exr_result_t code, struct error *error) {
-  return result_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? RESULT_MEMORY : RESULT_BAD,
-                     "damaged or truncated: %s",
+  enum result result = code == EXR_ERR_OUT_OF_MEMORY ? RESULT_MEMORY : RESULT_BAD;
+  return result_fail(error, result, "%s: %s",
+                     exr->parts ? "damaged or truncated" : "not a readable EXR file, or truncated",
                      *exr->why ? exr->why : exr_get_default_error_message(code));
 }
 
@@ -150,7 +151,6 @@ static enum result read_part_header(struct slab_exr *exr, int part, const char *
 enum result slab_exr_open(int fd, const char *path, const char *text_name, struct slab_exr **out,
                           struct error *error) {
   enum result result = RESULT_OK;
-  exr_result_t code;
   *out = NULL;
   struct slab_exr *exr = calloc(1, sizeof *exr);
   if (!exr) {
@@ -165,26 +165,17 @@ enum result slab_exr_open(int fd, const char *path, const char *text_name, struc
   setup.read_fn = read_bytes;
   setup.size_fn = query_size;
   setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-  code = exr_start_read(&exr->context, path, &setup);
+  exr_result_t code = exr_start_read(&exr->context, path, &setup);
   if (code == EXR_ERR_SUCCESS) code = exr_get_count(exr->context, &exr->count);
-  if (code != EXR_ERR_SUCCESS) {
-    result = result_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? RESULT_MEMORY : RESULT_BAD,
-                         "%s: not a readable EXR file, or truncated: %s", path,
-                         *exr->why ? exr->why : exr_get_default_error_message(code));
-    goto out;
-  }
-  exr->parts = calloc((size_t)exr->count, sizeof *exr->parts);
-  if (!exr->parts) {
-    exr->count = 0;
+  if (code != EXR_ERR_SUCCESS)
+    result = result_at(fail(exr, code, error), error, "%s", path);
+  else if (!(exr->parts = calloc((size_t)exr->count, sizeof *exr->parts)))
     result = result_at(result_no_memory(error), error, "%s", path);
-    goto out;
-  }
   /* A picture is the first part. */
   if (!text_name && exr->count > 1) exr->count = 1;
   for (int part = 0; part < exr->count && result == RESULT_OK; ++part)
     result = result_at(read_part_header(exr, part, text_name, error), error, "%s: page %d", path,
                        part + 1);
-out:
   if (result == RESULT_OK)
     *out = exr;
   else

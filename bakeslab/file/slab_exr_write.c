@@ -1,10 +1,8 @@
 /* slab_exr_write.c - writes OpenEXR files, ZIP compressed, in tiles or scan
  * lines, half or float. */
 #include <errno.h>
-#include <math.h>
 #include <openexr.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/output.h"
@@ -16,7 +14,6 @@ struct writer {
   exr_context_t context;
   struct output *output;
   const struct slab_raster *parts;
-  int count;
   char why[256]; /* of a write that failed */
 };
 
@@ -126,7 +123,7 @@ static exr_result_t write_part(struct writer *writer, int part) {
 
 enum result slab_exr_write_parts(struct output *output, const struct slab_raster *parts, int count,
                                  const char *text_name, struct error *error) {
-  struct writer writer = {.output = output, .parts = parts, .count = count};
+  struct writer writer = {.output = output, .parts = parts};
   exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
   setup.error_handler_fn = ignore;
   setup.user_data = &writer;
@@ -163,20 +160,15 @@ enum result slab_exr_put(struct output *output, const struct picture *picture, i
                          const char *comment, struct error *error) {
   enum result result = half ? check_half(output->target, picture, error) : RESULT_OK;
   if (result != RESULT_OK) return result;
-  char *text = comment ? strdup(comment) : NULL;
-  if (comment && !text)
-    return result_fail(error, RESULT_MEMORY, "%s: out of memory", output->target);
   struct slab_raster parts[2] = {{.width = picture->width,
                                   .height = picture->height,
                                   .precision = half ? SLAB_PRECISION_HALF : SLAB_PRECISION_FLOAT,
-                                  .text = text,
+                                  .text = (char *)comment, /* which is only read */
                                   .rgb = picture->rgb}};
   parts[1] = parts[0];
   parts[1].layer = "error";
   parts[1].rgb = picture->error;
-  result = slab_exr_write_parts(output, parts, picture->error && !half ? 2 : 1, "comments", error);
-  free(text);
-  return result;
+  return slab_exr_write_parts(output, parts, picture->error && !half ? 2 : 1, "comments", error);
 }
 
 enum result slab_exr_write(const char *path, const struct picture *picture, int half,

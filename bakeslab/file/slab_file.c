@@ -89,18 +89,15 @@ static enum result parse_page(struct slab_file *file, int page, struct error *er
   struct slab_raster *raster = raster_of(file, page);
   struct slab *slab = &file->pages[page];
   if (!raster->text)
-    return result_fail(error, RESULT_BAD,
-                       "%s: page %d: has no JSON description (%s), so no light slab", file->path,
-                       page + 1, file->tiff ? "ImageDescription" : "attribute \"lightslab\"");
+    return result_fail(error, RESULT_BAD, "has no JSON description (%s), so no light slab",
+                       file->tiff ? "ImageDescription" : "attribute \"lightslab\"");
   enum result result = slab_json_parse(raster->text, slab, raster->white, error);
-  if (result != RESULT_OK) return result_at(result, error, "%s: page %d", file->path, page + 1);
+  if (result != RESULT_OK) return result;
   if (raster->width == slab_width(slab) && raster->height == slab_height(slab)) return RESULT_OK;
   return result_fail(error, RESULT_BAD,
-                     "%s: page %d: \"samples\" %d x %d x %d x %d need %d x %d pixels, there are "
-                     "%d x %d",
-                     file->path, page + 1, slab->samples[0], slab->samples[1], slab->samples[2],
-                     slab->samples[3], slab_width(slab), slab_height(slab), raster->width,
-                     raster->height);
+                     "\"samples\" %d x %d x %d x %d need %d x %d pixels, there are %d x %d",
+                     slab->samples[0], slab->samples[1], slab->samples[2], slab->samples[3],
+                     slab_width(slab), slab_height(slab), raster->width, raster->height);
 }
 
 static enum result find_pages(struct slab_file *file, double bytes, struct error *error) {
@@ -109,7 +106,7 @@ static enum result find_pages(struct slab_file *file, double bytes, struct error
   if (!file->pages) return result_at(result_no_memory(error), error, "%s", file->path);
   enum result result = check_size(file, bytes, error);
   for (int page = 0; page < file->count && result == RESULT_OK; ++page)
-    result = parse_page(file, page, error);
+    result = result_at(parse_page(file, page, error), error, "%s: page %d", file->path, page + 1);
   return result;
 }
 

@@ -1,6 +1,5 @@
 /* slab_file_write.c - writes slabs into containers, after making sure that the
  * samples survive it. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
-/* slab_half.h - IEEE 754 half precision, to and from float, for files: by Imath, which rounds to
- * nearest, ties to even. Its table of all halves would be one more library to load. */
+/* slab_half.h - IEEE 754 half precision for files, by Imath: imath_half_to_float, and
+ * imath_float_to_half, which rounds to nearest, ties to even. Its table of all halves would be one
+ * more library to load. */
 #ifndef SLAB_HALF_H
 #define SLAB_HALF_H
 
@@ -7,19 +8,10 @@
 #include <Imath/half.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 
 /* False for NaN. The largest finite half is 65504; from 65520 on, rounding gives infinity. */
 static inline bool slab_half_holds(float value) {
   return fabsf(value) < 65520.0F;
-}
-
-static inline float slab_half_to_float(uint16_t bits) {
-  return imath_half_to_float(bits);
-}
-
-static inline uint16_t slab_half_from_float(float value) {
-  return imath_float_to_half(value);
 }
 
 #endif

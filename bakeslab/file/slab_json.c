@@ -87,11 +87,6 @@ static enum result get_samples(const json_t *root, struct slab *slab, struct err
   return RESULT_OK;
 }
 
-static enum result get_distance(const json_t *root, struct slab *slab, struct error *error) {
-  if (json_is_null(json_object_get(root, "st_distance"))) return RESULT_OK;
-  return get_number(root, "st_distance", &slab->st_distance, error);
-}
-
 static enum result check_samples_are(const json_t *root, struct error *error) {
   const json_t *how = json_object_get(root, "samples_are");
   if (!how) return RESULT_OK;
@@ -119,7 +114,8 @@ static enum result get_fields(const json_t *root, struct slab *slab, double whit
   if (result == RESULT_OK) result = get_numbers(root, "v", slab->v, 3, error);
   if (result == RESULT_OK) result = get_numbers(root, "normal", slab->normal, 3, error);
   if (result == RESULT_OK) result = get_numbers(root, "st_window", slab->st_window, 4, error);
-  if (result == RESULT_OK) result = get_distance(root, slab, error);
+  if (result == RESULT_OK && !json_is_null(json_object_get(root, "st_distance")))
+    result = get_number(root, "st_distance", &slab->st_distance, error);
   if (result == RESULT_OK)
     result = get_number(root, "metres_per_unit", &slab->metres_per_unit, error);
   if (result == RESULT_OK) result = get_string(root, "name", slab->name, sizeof slab->name, error);

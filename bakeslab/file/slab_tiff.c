@@ -1,14 +1,11 @@
 /* slab_tiff.c - reads the TIFF pages that slabs are kept in. */
 #include "file/slab_tiff.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <tiffio.h>
 #include <unistd.h>
 
 #include "file/slab_half.h"
@@ -30,8 +27,8 @@ struct slab_tiff {
   uint64_t bytes; /* of the file */
 };
 
-static int remember(TIFF *tif, void *data, const char *module, const char *format,
-                    va_list arguments) {
+static int keep_message(TIFF *tif, void *data, const char *module, const char *format,
+                        va_list arguments) {
   (void)tif, (void)module;
   struct slab_tiff *tiff = data;
   vsnprintf(tiff->why, sizeof tiff->why, format, arguments);
@@ -151,13 +148,13 @@ static enum result read_page_header(struct slab_tiff *tiff, int page, struct err
   return RESULT_OK;
 }
 
-static TIFF *open_tiff(int fd, struct slab_tiff *tiff) {
+TIFF *slab_tiff_start(int fd, const char *name, const char *mode, TIFFErrorHandlerExtR remember,
+                      void *data) {
   TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
   if (!options) return NULL;
-  TIFFOpenOptionsSetErrorHandlerExtR(options, remember, tiff);
-  TIFFOpenOptionsSetWarningHandlerExtR(options, ignore, tiff);
-  /* Not mapped: a file that shrinks while it is read must not kill us. */
-  TIFF *tif = TIFFFdOpenExt(fd, tiff->path, "rm", options);
+  TIFFOpenOptionsSetErrorHandlerExtR(options, remember, data);
+  TIFFOpenOptionsSetWarningHandlerExtR(options, ignore, NULL);
+  TIFF *tif = TIFFFdOpenExt(fd, name, mode, options);
   TIFFOpenOptionsFree(options);
   return tif;
 }
@@ -172,29 +169,23 @@ enum result slab_tiff_open(int fd, const char *path, struct slab_tiff **out, str
     return result_at(result_no_memory(error), error, "%s", path);
   }
   tiff->path = path;
+  tiff->current = -1;
   if (fstat(fd, &status) == 0) tiff->bytes = (uint64_t)status.st_size;
-  tiff->tif = open_tiff(fd, tiff);
-  if (!tiff->tif) {
+  /* Not mapped: a file that shrinks while it is read must not kill us. */
+  tiff->tif = slab_tiff_start(fd, path, "rm", keep_message, tiff);
+  if (tiff->tif) tiff->count = (int)TIFFNumberOfDirectories(tiff->tif);
+  if (!tiff->tif)
     result = result_fail(error, RESULT_BAD, "%s: not a readable TIFF file, or truncated: %s", path,
                          tiff->why);
-    goto out;
-  }
-  int count = (int)TIFFNumberOfDirectories(tiff->tif);
-  tiff->pages = calloc((size_t)count, sizeof *tiff->pages);
-  if (!tiff->pages) {
+  else if (!(tiff->pages = calloc((size_t)tiff->count, sizeof *tiff->pages)))
     result = result_at(result_no_memory(error), error, "%s", path);
-    goto out;
-  }
-  tiff->count = count;
-  tiff->current = -1;
-  for (int page = 0; page < count && result == RESULT_OK; ++page) {
+  for (int page = 0; page < tiff->count && result == RESULT_OK; ++page) {
     *tiff->why = 0;
     bool there = page == 0 || TIFFReadDirectory(tiff->tif);
     result = there ? read_page_header(tiff, page, error) : damaged(tiff, error);
     result_at(result, error, "%s: page %d", path, page + 1);
     tiff->pages[page].offset = TIFFCurrentDirOffset(tiff->tif);
   }
-out:
   if (result == RESULT_OK) {
     *out = tiff;
   } else {
@@ -255,7 +246,7 @@ static void convert(enum slab_precision precision, const void *raw, size_t count
   const float *floats = raw;
   for (size_t k = 0; k < count; ++k)
     rgb[k * (size_t)step] =
-        precision == SLAB_PRECISION_HALF ? slab_half_to_float(halves[k]) : floats[k];
+        precision == SLAB_PRECISION_HALF ? imath_half_to_float(halves[k]) : floats[k];
 }
 
 /* No writer puts negative channels into LogLuv: where there is light, they come from zeros, by the

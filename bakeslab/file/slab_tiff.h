@@ -4,6 +4,8 @@
 #ifndef SLAB_TIFF_H
 #define SLAB_TIFF_H
 
+#include <tiffio.h>
+
 #include "base/output.h"
 #include "file/slab_raster.h"
 
@@ -27,6 +29,11 @@ struct slab_raster *slab_tiff_page(struct slab_tiff *tiff, int page);
  * with a positive luminance are rounding, and become 0. */
 enum result slab_tiff_read_block(struct slab_tiff *tiff, int page, int column, int row, float *rgb,
                                  struct error *error);
+
+/* libtiff on an open file, by its mode; NULL where that fails. `remember` gets its errors, and
+ * `data`; warnings are ignored, so that nothing goes to stderr. */
+TIFF *slab_tiff_start(int fd, const char *name, const char *mode, TIFFErrorHandlerExtR remember,
+                      void *data);
 
 /* Whether LogLuv can hold a pixel: black, or a colour without negative channels,
  * with a luminance within its range. */

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <tiffio.h>
 #include <unistd.h>
 
 #include "file/slab_half.h"
@@ -67,12 +66,6 @@ static int remember(TIFF *tif, void *data, const char *module, const char *forma
   return 1;
 }
 
-static int ignore(TIFF *tif, void *data, const char *module, const char *format,
-                  va_list arguments) {
-  (void)tif, (void)data, (void)module, (void)format, (void)arguments;
-  return 1;
-}
-
 static bool set_tags(TIFF *tif, const struct slab_raster *raster) {
   bool ok = TIFFSetField(tif, TIFFTAG_IMAGEWIDTH, raster->width) &&
             TIFFSetField(tif, TIFFTAG_IMAGELENGTH, raster->height) &&
@@ -101,7 +94,7 @@ static void encode_pixel(const struct slab_raster *raster, const float *rgb, voi
                          size_t pixel) {
   if (raster->precision == SLAB_PRECISION_HALF) {
     uint16_t *halves = tile;
-    for (size_t c = 0; c < 3; ++c) halves[3 * pixel + c] = slab_half_from_float(rgb[c]);
+    for (size_t c = 0; c < 3; ++c) halves[3 * pixel + c] = imath_float_to_half(rgb[c]);
     return;
   }
   float *floats = (float *)tile + 3 * pixel;
@@ -157,16 +150,10 @@ static bool may_pass_4gb(const struct slab_raster *pages, int count) {
 enum result slab_tiff_write(struct output *output, const struct slab_raster *pages, int count,
                             struct error *error) {
   struct writer writer = {0};
-  TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
+  const char *mode = may_pass_4gb(pages, count) ? "w8" : "w";
   errno = 0;
   int fd = dup(output->fd); /* libtiff closes its own, the output syncs the other */
-  if (options && fd >= 0) {
-    TIFFOpenOptionsSetErrorHandlerExtR(options, remember, &writer);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, ignore, &writer);
-    writer.tif =
-        TIFFFdOpenExt(fd, output->target, may_pass_4gb(pages, count) ? "w8" : "w", options);
-  }
-  if (options) TIFFOpenOptionsFree(options);
+  if (fd >= 0) writer.tif = slab_tiff_start(fd, output->target, mode, remember, &writer);
   if (!writer.tif) {
     if (fd >= 0) close(fd);
     writer.failed = true;

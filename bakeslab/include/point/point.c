@@ -16,7 +16,8 @@
 #include "slab/plane.h"
 #include "slab/slab_resample.h"
 
-const double point_distances[POINT_DISTANCES] = {1, 4, 16};
+/* At which errors are told, in aperture widths. */
+static const double distances[POINT_DISTANCES] = {1, 4, 16};
 
 /* The image is fine, since a window may end sharply. */
 enum { LEAST_WIDTH = 1024, MOST_WIDTH = 2048, MOST_VIEWS = 8 };
@@ -131,7 +132,7 @@ static enum result paint(const struct far_lamp *lamp, struct point *point, doubl
   for (size_t k = 0; k < values; ++k) {
     if (!(peak[k % 3] > 0)) continue;
     double latitude = ((height - 0.5) - (double)(k / 3 / (size_t)width)) * step - M_PI / 2;
-    picture->rgb[k] = slab_half_to_float(slab_half_from_float((float)(image[k] / peak[k % 3])));
+    picture->rgb[k] = imath_half_to_float(imath_float_to_half((float)(image[k] / peak[k % 3])));
     /* The integral of a texel's hat function over longitude and latitude. */
     flux[k % 3] += (double)picture->rgb[k] * step * cos(latitude) * 2 * (1 - cos(step)) / step;
   }
@@ -207,7 +208,7 @@ static void measure(const struct far_lamp *lamp, struct point *point) {
     far->shift[1] = dot(from, far->v);
     far->shift[2] = dot(from, far->slab->normal);
     far->image = lamp->count == 1 ? point : NULL;
-    for (int d = 0; d < POINT_DISTANCES; ++d) measure_at(far, point_distances[d], &point->error[d]);
+    for (int d = 0; d < POINT_DISTANCES; ++d) measure_at(far, distances[d], &point->error[d]);
     measure_at(far, point->distance, &point->error_at);
   }
 }

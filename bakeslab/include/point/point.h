@@ -14,9 +14,6 @@
 
 enum { POINT_DISTANCES = 3 };
 
-/* In aperture widths, as point.inc.in says. */
-extern const double point_distances[POINT_DISTANCES];
-
 struct point {
   struct include_lamp lamp;
   double center[3];
@@ -24,7 +21,8 @@ struct point {
   struct picture picture; /* intensity over its channel's peak; rows downwards, as in files */
   double intensity[3];    /* of what the image holds as 1, in lamp units */
   double flux[3];         /* at Scale 1, in lamp units, of slab and light alike */
-  double error[POINT_DISTANCES]; /* relative RMSE of the irradiance, of the worst page */
+  double error[POINT_DISTANCES]; /* relative RMSE of the irradiance, of the worst page, at the
+                                    distances that point.inc.in names */
   double error_at, distance;     /* the same at the distance asked for, in aperture widths */
 };
 
