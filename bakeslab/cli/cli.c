@@ -62,15 +62,11 @@ bool cli_quiet(void) {
 
 /* ---- The recorded command line ---- */
 
-static bool needs_quotes(const char *word) {
-  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                              "0123456789_-+=./,:@%^";
-  return !*word || word[strspn(word, plain)];
-}
-
 /* Appends the word quoted for a shell; `out` has room for 4 bytes a byte. */
 static char *append_word(char *out, const char *word) {
-  if (!needs_quotes(word)) return stpcpy(out, word);
+  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                              "0123456789_-+=./,:@%^";
+  if (*word && !word[strspn(word, plain)]) return stpcpy(out, word);
   *out++ = '\'';
   for (; *word; ++word) {
     if (*word == '\'')

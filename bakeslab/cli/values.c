@@ -60,29 +60,25 @@ static int take_word(const struct said *said) {
 }
 
 static void take(const struct value *value, const struct said *said, void *to) {
-  bool flag = true;
-  double real;
-  int whole;
   switch (value->kind) {
   case VALUE_EITHER:
-    flag = take_word(said) == 1;
-    memcpy(to, &flag, sizeof flag);
+    *(bool *)to = take_word(said) == 1;
     return;
   case VALUE_FLAG:
-    memcpy(to, &flag, sizeof flag);
+    *(bool *)to = true;
     return;
   case VALUE_TEXT:
-    memcpy(to, &said->text, sizeof said->text);
+    *(const char **)to = said->text;
     return;
   case VALUE_REAL:
   case VALUE_POSITIVE:
-    real = take_real(value, said);
-    memcpy(to, &real, sizeof real);
+    *(double *)to = take_real(value, said);
     return;
   case VALUE_WORD:
+    *(int *)to = (int)value->low + take_word(said);
+    return;
   case VALUE_WHOLE:
-    whole = value->kind == VALUE_WORD ? (int)value->low + take_word(said) : take_whole(value, said);
-    memcpy(to, &whole, sizeof whole);
+    *(int *)to = take_whole(value, said);
     return;
   case VALUE_SIZE:
     if (!numbers_size(said->text, to))

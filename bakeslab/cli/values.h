@@ -3,8 +3,9 @@
  * A command's argp parser hands values_take the keys that it does not look at itself:
  *
  *   static const struct value values[] = {
- *       {OPTION_JOBS, VALUE_WHOLE, offsetof(struct arguments, jobs), 1, 1024},
- *       {OPTION_DRY, VALUE_FLAG, offsetof(struct arguments, dry), 0, 0}, {0}};
+ *       {'j', VALUE_WHOLE, offsetof(struct arguments, jobs), 1, 1024},
+ *       {VALUE_KEY(struct arguments, dry), VALUE_FLAG, offsetof(struct arguments, dry), 0, 0},
+ *       {0}};
  *   ...
  *   default: return values_take(values, options, key, text, arguments, state); */
 #ifndef VALUES_H
@@ -12,6 +13,9 @@
 
 #include <argp.h>
 #include <stddef.h>
+
+/* The key of an option without a letter, by the member that it sets: other members, other keys. */
+#define VALUE_KEY(type, member) (256 + (int)offsetof(type, member))
 
 /* Into what, of which type, at the offset. */
 enum value_kind {

@@ -17,80 +17,68 @@ static void on_signal(int number) {
   stop = 1;
 }
 
-enum {
-  OPTION_UV = 256,
-  OPTION_ST,
-  OPTION_RAYS,
-  OPTION_RAYS_MAX,
-  OPTION_CENTRE,
-  OPTION_UNIFORM,
-  OPTION_EFFECTS,
-  OPTION_THRESHOLD,
-  OPTION_WINDOW,
-  OPTION_TOLERANCE,
-  OPTION_DISTANCE,
-  OPTION_SHARD,
-  OPTION_PRECISION,
-  OPTION_GAIN,
-  OPTION_CAMERA,
-  OPTION_POVRAY,
-  OPTION_SANDBOX,
-  OPTION_DEPEND
+struct arguments {
+  struct bake_options bake;
+  const char *libraries[LAMP_MAX_LIBRARIES + 1];
+  int library_count;
 };
+
+#define BAKE(member) offsetof(struct arguments, bake.member)
+#define KEY(member) VALUE_KEY(struct arguments, bake.member)
 
 static const struct argp_option options[] = {
     {0, 'o', "SLAB", 0, "the slab to write: .tif (LogLuv unless --precision is given) or .exr", 1},
-    {"uv", OPTION_UV, "NxM", 0, "positions on the aperture (default 16x16)", 1},
-    {"st", OPTION_ST, "NxM", 0, "directions at each position (default 64x64)", 1},
-    {"precision", OPTION_PRECISION, CLI_PRECISIONS, 0, "number format of the samples", 1},
-    {"rays", OPTION_RAYS, "K", 0,
+    {"uv", KEY(uv), "NxM", 0, "positions on the aperture (default 16x16)", 1},
+    {"st", KEY(st), "NxM", 0, "directions at each position (default 64x64)", 1},
+    {"precision", KEY(precision), CLI_PRECISIONS, 0, "number format of the samples", 1},
+    {"rays", KEY(rays), "K", 0,
      "rays a sample, on average: 1 or an even number (default 16). A sample is the mean over "
      "its 4D cell; the first 4 rays are shot everywhere, the others where those are noisy",
      2},
-    {"rays-max", OPTION_RAYS_MAX, "K", 0, "the most rays for a sample (default 4 x --rays)", 2},
-    {"uniform", OPTION_UNIFORM, 0, 0,
+    {"rays-max", KEY(rays_max), "K", 0, "the most rays for a sample (default 4 x --rays)", 2},
+    {"uniform", KEY(uniform), 0, 0,
      "the same number of rays for all samples, at the same places of their cells", 2},
-    {"centre", OPTION_CENTRE, 0, 0,
+    {"centre", KEY(centre), 0, 0,
      "one ray through the centre of each sample: fast, but fine parts of a lamp alias", 2},
-    {"effects", OPTION_EFFECTS, "auto|probe|all|none|LIST", 0,
+    {"effects", KEY(effects), "auto|probe|all|none|LIST", 0,
      "which of interreflection, caustics, extended_source and deep_trace to simulate. probe: "
      "those that short test bakes show to matter. auto (the default): those of the lamp's "
      "Canned_Needs; without it, probe. A number says how far to go: interreflection=4 bounces, "
      "caustics=100000 photons, extended_source=9 lights a side, deep_trace=60 levels",
      3},
-    {"effect-threshold", OPTION_THRESHOLD, "X", 0,
+    {"effect-threshold", KEY(effect_threshold), "X", 0,
      "an effect matters if it changes the flux by more than this part of it, or the light by "
      "direction or position by twice that, in RMS (default 0.01)",
      3},
-    {"window", OPTION_WINDOW, "declared|auto", 0,
+    {"window", KEY(window_auto), "declared|auto", 0,
      "auto: fit the st windows to the light, within those that the script declares", 3},
-    {"tolerance", OPTION_TOLERANCE, "T", 0,
+    {"tolerance", KEY(tolerance), "T", 0,
      "choose the fewest samples for which the error of irradiance is at most T (relative RMS) at "
      "--for-distance and beyond; --uv and --st, where given, stay",
      3},
-    {"for-distance", OPTION_DISTANCE, "D", 0,
+    {"for-distance", KEY(for_distance), "D", 0,
      "distance of the nearest surface that is lit, in lamp units (default 4 apertures); sets "
      "--tolerance 0.01 if none is given. The st plane is put there if that needs fewer samples",
      3},
-    {"gain", OPTION_GAIN, "2^N", 0,
+    {"gain", KEY(gain), "2^N", 0,
      "factor by which POV-Ray renders brighter, undone in the slab; its pictures hold radiance "
      "up to 65504 (default: chosen by a trial run)",
      3},
-    {"camera", OPTION_CAMERA, "mesh|perspective|transposed", 0,
+    {"camera", KEY(form), "mesh|perspective|transposed", 0,
      "what POV-Ray renders: many views in an image, one view a frame, or one direction a frame "
      "(default: the fastest)",
      3},
     {"jobs", 'j', "N", 0, "POV-Ray processes at a time (default: one a processor)", 4},
-    {"shard", OPTION_SHARD, "K/N", 0,
+    {"shard", KEY(shard), "K/N", 0,
      "bake only part K of N (from 1) into SLAB.partial; a run without --shard bakes what is "
      "missing and writes the slab",
      4},
-    {"povray", OPTION_POVRAY, "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
-    {"sandbox", OPTION_SANDBOX, 0, 0,
+    {"povray", KEY(povray), "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
+    {"sandbox", KEY(sandbox), 0, 0,
      "run POV-Ray in a sandbox (bubblewrap): it can read files, but write only to its working "
      "folder, and has no network",
      4},
-    {"depend", OPTION_DEPEND, "FILE", 0,
+    {"depend", KEY(depend), "FILE", 0,
      "write a rule for make: SLAB depends on every file that the script reads (as gcc's -MD -MF "
      "FILE -MP)",
      4},
@@ -123,12 +111,6 @@ static const char doc[] =
     "  for k in 1 2 3 4; do bakeslab bake lamp.pov -o big.tif --shard $k/4 & done\n"
     "  wait; bakeslab bake lamp.pov -o big.tif\n";
 
-struct arguments {
-  struct bake_options bake;
-  const char *libraries[LAMP_MAX_LIBRARIES + 1];
-  int library_count;
-};
-
 static void parse_shard(struct argp_state *state, const char *text, struct bake_options *bake) {
   int k, n, used = 0;
   if (sscanf(text, "%d/%d%n", &k, &n, &used) != 2 || text[used] || n < 1 || k < 1 || k > n)
@@ -149,36 +131,35 @@ static double parse_gain(struct argp_state *state, const char *text) {
   return gain;
 }
 
-#define BAKE(member) offsetof(struct arguments, bake.member)
 static const struct value values[] = {
     {'o', VALUE_TEXT, BAKE(output), 0, 0},
-    {OPTION_UV, VALUE_SIZE, BAKE(uv), 0, 0},
-    {OPTION_ST, VALUE_SIZE, BAKE(st), 0, 0},
-    {OPTION_PRECISION, VALUE_WORD, BAKE(precision), SLAB_PRECISION_LOGLUV, 0},
-    {OPTION_RAYS, VALUE_WHOLE, BAKE(rays), 1, 4096},
-    {OPTION_RAYS_MAX, VALUE_WHOLE, BAKE(rays_max), 1, 65536},
-    {OPTION_UNIFORM, VALUE_FLAG, BAKE(uniform), 0, 0},
-    {OPTION_CENTRE, VALUE_FLAG, BAKE(centre), 0, 0},
-    {OPTION_EFFECTS, VALUE_TEXT, BAKE(effects), 0, 0},
-    {OPTION_THRESHOLD, VALUE_POSITIVE, BAKE(effect_threshold), 0, 0},
-    {OPTION_WINDOW, VALUE_EITHER, BAKE(window_auto), 0, 0},
-    {OPTION_TOLERANCE, VALUE_POSITIVE, BAKE(tolerance), 0, 0},
-    {OPTION_DISTANCE, VALUE_POSITIVE, BAKE(for_distance), 0, 0},
-    {OPTION_CAMERA, VALUE_WORD, BAKE(form), 0, 0},
+    {KEY(uv), VALUE_SIZE, BAKE(uv), 0, 0},
+    {KEY(st), VALUE_SIZE, BAKE(st), 0, 0},
+    {KEY(precision), VALUE_WORD, BAKE(precision), SLAB_PRECISION_LOGLUV, 0},
+    {KEY(rays), VALUE_WHOLE, BAKE(rays), 1, 4096},
+    {KEY(rays_max), VALUE_WHOLE, BAKE(rays_max), 1, 65536},
+    {KEY(uniform), VALUE_FLAG, BAKE(uniform), 0, 0},
+    {KEY(centre), VALUE_FLAG, BAKE(centre), 0, 0},
+    {KEY(effects), VALUE_TEXT, BAKE(effects), 0, 0},
+    {KEY(effect_threshold), VALUE_POSITIVE, BAKE(effect_threshold), 0, 0},
+    {KEY(window_auto), VALUE_EITHER, BAKE(window_auto), 0, 0},
+    {KEY(tolerance), VALUE_POSITIVE, BAKE(tolerance), 0, 0},
+    {KEY(for_distance), VALUE_POSITIVE, BAKE(for_distance), 0, 0},
+    {KEY(form), VALUE_WORD, BAKE(form), 0, 0},
     {'j', VALUE_WHOLE, BAKE(jobs), 1, 1024},
-    {OPTION_POVRAY, VALUE_TEXT, BAKE(povray), 0, 0},
-    {OPTION_SANDBOX, VALUE_FLAG, BAKE(sandbox), 0, 0},
-    {OPTION_DEPEND, VALUE_TEXT, BAKE(depend), 0, 0},
+    {KEY(povray), VALUE_TEXT, BAKE(povray), 0, 0},
+    {KEY(sandbox), VALUE_FLAG, BAKE(sandbox), 0, 0},
+    {KEY(depend), VALUE_TEXT, BAKE(depend), 0, 0},
     {0}};
 
 static error_t parse_option(int key, char *text, struct argp_state *state) {
   struct arguments *arguments = state->input;
   struct bake_options *bake = &arguments->bake;
   switch (key) {
-  case OPTION_GAIN:
+  case KEY(gain):
     bake->gain = parse_gain(state, text);
     return 0;
-  case OPTION_SHARD:
+  case KEY(shard):
     parse_shard(state, text, bake);
     return 0;
   case 'L':
@@ -276,7 +257,7 @@ int cmd_bake(int argc, char **argv) {
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup stays in force */
   struct error error = {""};
   struct bake_report report;
-  if (bake(bake_options, &stop, &report, &error)) return cli_fail(&error);
-  report_done(bake_options, &report);
-  return CLI_OK;
+  enum result result = bake(bake_options, &stop, &report, &error);
+  if (result == RESULT_OK) report_done(bake_options, &report);
+  return cli_end(result, &error);
 }

@@ -21,18 +21,20 @@ struct options {
   int count;
 };
 
-enum { OPTION_STRICT = 256, OPTION_ERROR };
+#define OPTION(member) offsetof(struct options, member)
+#define KEY(member) VALUE_KEY(struct options, member)
+
+static const struct argp_option options_list[] = {
+    {"strict", KEY(strict), NULL, 0, "Exit with 1 after a warning too", 0},
+    {"error", KEY(error), NULL, 0, "Estimate the slab's own error: no method is more accurate", 0},
+    {0}};
+static const struct value values[] = {{KEY(strict), VALUE_FLAG, OPTION(strict), 0, 0},
+                                      {KEY(error), VALUE_FLAG, OPTION(error), 0, 0},
+                                      {0}};
 
 static error_t parse(int key, char *argument, struct argp_state *state) {
   struct options *options = state->input;
-  (void)argument;
   switch (key) {
-  case OPTION_STRICT:
-    options->strict = true;
-    return 0;
-  case OPTION_ERROR:
-    options->error = true;
-    return 0;
   case ARGP_KEY_ARGS:
     options->paths = state->argv + state->next;
     options->count = state->argc - state->next;
@@ -41,7 +43,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     argp_error(state, "no slab given");
     return EINVAL;
   default:
-    return ARGP_ERR_UNKNOWN;
+    return values_take(values, options_list, key, argument, options, state);
   }
 }
 
@@ -195,12 +197,7 @@ static const char doc[] =
     "  bakeslab check --error lamp.tif\n"
     "  bakeslab check --strict lamps/*.tif";
 
-static const struct argp_option option[] = {
-    {"strict", OPTION_STRICT, NULL, 0, "Exit with 1 after a warning too", 0},
-    {"error", OPTION_ERROR, NULL, 0, "Estimate the slab's own error: no method is more accurate",
-     0},
-    {0}};
-static const struct argp argp = {option, parse, "SLAB...", doc, cli_options, NULL, NULL};
+static const struct argp argp = {options_list, parse, "SLAB...", doc, cli_options, NULL, NULL};
 
 int cmd_check(int argc, char **argv) {
   struct options options = {0};

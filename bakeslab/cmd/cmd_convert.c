@@ -1,7 +1,5 @@
 /* cmd_convert.c - bakeslab convert: other container, precision, resolution; sharpening. */
-#include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/version.h"
@@ -19,34 +17,34 @@ struct options {
   bool sharpen, positive;
 };
 
-enum { OPTION_PRECISION = 256, OPTION_UV, OPTION_ST, OPTION_CROP, OPTION_SHARPEN, OPTION_POSITIVE };
+#define OPTION(member) offsetof(struct options, member)
+#define KEY(member) VALUE_KEY(struct options, member)
 
 static const struct argp_option options_list[] = {
     {"output", 'o', "OUT", 0,
      "The file to write: .tif, .tiff or .exr; - writes a TIFF to standard output", 0},
-    {"precision", OPTION_PRECISION, CLI_PRECISIONS, 0,
+    {"precision", KEY(precision), CLI_PRECISIONS, 0,
      "Number format of the samples: logluv (4 bytes) is the default for TIFF, float for EXR", 0},
-    {"uv", OPTION_UV, "NxM", 0, "Samples along u and v", 0},
-    {"st", OPTION_ST, "NxM", 0, "Samples along s and t", 0},
-    {"crop", OPTION_CROP, "RANGE", 0,
+    {"uv", KEY(samples[SLAB_U]), "NxM", 0, "Samples along u and v", 0},
+    {"st", KEY(samples[SLAB_S]), "NxM", 0, "Samples along s and t", 0},
+    {"crop", KEY(first), "RANGE", 0,
      "Keep a part, before anything else: uv=I0:I1,J0:J1 or st=K0:K1,L0:L1, sample numbers from "
      "0, the end not included. May be given for both.",
      0},
-    {"sharpen", OPTION_SHARPEN, "st", 0,
-     "After all that: sharpen along s and t, so that the interpolated radiance keeps the means "
-     "over cells that the samples are",
+    {"sharpen", KEY(sharpen), "st", 0,
+     "The only value is st: after all that, sharpen along s and t, so that the interpolated "
+     "radiance keeps the means over cells that the samples are",
      0},
-    {"positive", OPTION_POSITIVE, NULL, 0,
+    {"positive", KEY(positive), NULL, 0,
      "With --sharpen, no sample becomes negative, as always in LogLuv; include needs it", 0},
     {0}};
 
-#define OPTION(member) offsetof(struct options, member)
 static const struct value values[] = {
     {'o', VALUE_TEXT, OPTION(output), 0, 0},
-    {OPTION_PRECISION, VALUE_WORD, OPTION(precision), SLAB_PRECISION_LOGLUV, 0},
-    {OPTION_UV, VALUE_SIZE, OPTION(samples[SLAB_U]), 0, 0},
-    {OPTION_ST, VALUE_SIZE, OPTION(samples[SLAB_S]), 0, 0},
-    {OPTION_POSITIVE, VALUE_FLAG, OPTION(positive), 0, 0},
+    {KEY(precision), VALUE_WORD, OPTION(precision), SLAB_PRECISION_LOGLUV, 0},
+    {KEY(samples[SLAB_U]), VALUE_SIZE, OPTION(samples[SLAB_U]), 0, 0},
+    {KEY(samples[SLAB_S]), VALUE_SIZE, OPTION(samples[SLAB_S]), 0, 0},
+    {KEY(positive), VALUE_FLAG, OPTION(positive), 0, 0},
     {0}};
 
 /* uv=I0:I1,J0:J1 or st=K0:K1,L0:L1 */
@@ -65,10 +63,10 @@ static void parse_crop(const char *text, struct options *options, struct argp_st
 static error_t parse(int key, char *argument, struct argp_state *state) {
   struct options *options = state->input;
   switch (key) {
-  case OPTION_CROP:
+  case KEY(first):
     parse_crop(argument, options, state);
     return 0;
-  case OPTION_SHARPEN:
+  case KEY(sharpen):
     if (strcmp(argument, "st") != 0) argp_error(state, "--sharpen %s: must be st", argument);
     options->sharpen = true;
     return 0;
@@ -78,7 +76,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     return 0;
   default:
     if (values_take(values, options_list, key, argument, options, state) == 0) return 0;
-    return cli_parse_slab(key, argument, state, &options->input);
+    return cli_parse_file(key, argument, state, "slab", &options->input);
   }
 }
 
@@ -161,31 +159,29 @@ static enum result run(void *input, struct error *error) {
   return result;
 }
 
+static const char doc[] =
+    "Writes a light slab into another container, or with another precision or resolution. "
+    "Fewer samples are means over the new cells, more are interpolated. The command is "
+    "recorded in the provenance.\n\n"
+    "--sharpen st removes the blur that interpolation adds to cell means along s and t. "
+    "The sum of each view's samples stays. Samples beside edges may become negative; in "
+    "LogLuv, and with --positive, light moves between neighbouring cells only as far as "
+    "no sample becomes negative, and means beside edges are kept less exactly. "
+    "Sharpening helps where light is smooth from sample to sample (a fourth of the error "
+    "of irradiance, or much less) or has peaks a few cells wide (a fifth to two thirds). "
+    "It does not where edges move by cells from view to view, as behind fine bars (1.2 "
+    "to 1.6 times the error for the paper's lamp), and it amplifies noise: bake with 64 "
+    "rays or more. Compare bakeslab check --error of both slabs."
+    "\vExamples:\n"
+    "  bakeslab convert lamp.tif -o lamp.exr\n"
+    "  bakeslab convert lamp.tif -o small.tif --uv 8x8 --st 32x32\n"
+    "  bakeslab convert lamp.exr -o exact.tif --precision float\n"
+    "  bakeslab convert lamp.exr -o sharp.exr --sharpen st\n"
+    "  bakeslab convert lamp.tif -o middle.tif --crop st=16:48,16:48\n"
+    "  bakeslab convert lamp.tif -o - --uv 4x4 | bakeslab info -";
+static const struct argp argp = {options_list, parse, "SLAB -o OUT", doc, cli_options, NULL, NULL};
+
 int cmd_convert(int argc, char **argv) {
-  static const struct argp argp = {
-      .options = options_list,
-      .parser = parse,
-      .children = cli_options,
-      .args_doc = "SLAB -o OUT",
-      .doc = "Writes a light slab into another container, or with another precision or resolution. "
-             "Fewer samples are means over the new cells, more are interpolated. The command is "
-             "recorded in the provenance.\n\n"
-             "--sharpen st removes the blur that interpolation adds to cell means along s and t. "
-             "The sum of each view's samples stays. Samples beside edges may become negative; in "
-             "LogLuv, and with --positive, light moves between neighbouring cells only as far as "
-             "no sample becomes negative, and means beside edges are kept less exactly. "
-             "Sharpening helps where light is smooth from sample to sample (a fourth of the error "
-             "of irradiance, or much less) or has peaks a few cells wide (a fifth to two thirds). "
-             "It does not where edges move by cells from view to view, as behind fine bars (1.2 "
-             "to 1.6 times the error for the paper's lamp), and it amplifies noise: bake with 64 "
-             "rays or more. Compare bakeslab check --error of both slabs."
-             "\vExamples:\n"
-             "  bakeslab convert lamp.tif -o lamp.exr\n"
-             "  bakeslab convert lamp.tif -o small.tif --uv 8x8 --st 32x32\n"
-             "  bakeslab convert lamp.exr -o exact.tif --precision float\n"
-             "  bakeslab convert lamp.exr -o sharp.exr --sharpen st\n"
-             "  bakeslab convert lamp.tif -o middle.tif --crop st=16:48,16:48\n"
-             "  bakeslab convert lamp.tif -o - --uv 4x4 | bakeslab info -"};
   struct options options = {0};
   return cli_run(&argp, argc, argv, run, &options);
 }

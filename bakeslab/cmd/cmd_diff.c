@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
@@ -13,6 +12,7 @@ enum { DIFFER = 1 };
 struct options {
   const char *paths[2];
   double tolerance; /* of the largest difference, relative to the peak */
+  bool differ;      /* what came out */
 };
 
 static const struct argp_option options_list[] = {
@@ -62,7 +62,7 @@ static const char *different_frame(const struct slab *a, const struct slab *b) {
 
 /* Prints what the samples of two pages differ by. */
 static enum result compare_samples(int page, const struct slab *a, const struct slab *b,
-                                   double tolerance, bool *differ, struct error *error) {
+                                   struct options *options, struct error *error) {
   size_t count = 3 * slab_sample_count(a), worst = 0;
   double peak = 0, largest = 0, squares = 0, flux_a[3], flux_b[3];
   for (size_t k = 0; k < count; ++k) {
@@ -86,11 +86,12 @@ static enum result compare_samples(int page, const struct slab *a, const struct 
          at[SLAB_S], at[SLAB_T]);
   printf("page %d: flux %.6g %.6g %.6g and %.6g %.6g %.6g\n", page + 1, flux_a[0], flux_a[1],
          flux_a[2], flux_b[0], flux_b[1], flux_b[2]);
-  if (largest > tolerance * peak) *differ = true;
+  options->differ |= largest > options->tolerance * peak;
   return RESULT_OK;
 }
 
-static enum result compare(const struct options *options, bool *differ, struct error *error) {
+static enum result compare(void *input, struct error *error) {
+  struct options *options = input;
   struct slab *slabs[2] = {NULL, NULL};
   int count[2] = {0, 0};
   enum result result = RESULT_OK;
@@ -98,40 +99,35 @@ static enum result compare(const struct options *options, bool *differ, struct e
     result = slab_file_load_all(options->paths[k], &slabs[k], &count[k], error);
   if (result == RESULT_OK && count[0] != count[1]) {
     printf("pages: %d and %d\n", count[0], count[1]);
-    *differ = true;
+    options->differ = true;
   }
   for (int page = 0; page < count[0] && count[0] == count[1] && result == RESULT_OK; ++page) {
     const struct slab *a = &slabs[0][page], *b = &slabs[1][page];
     const char *what = different_frame(a, b);
     if (what) {
       printf("page %d: \"%s\" differs\n", page + 1, what);
-      *differ = true;
+      options->differ = true;
     } else {
-      result = compare_samples(page, a, b, options->tolerance, differ, error);
+      result = compare_samples(page, a, b, options, error);
     }
   }
   for (int k = 0; k < 2; ++k) slab_file_free_all(slabs[k], count[k]);
   return result;
 }
 
+static const char doc[] =
+    "Compares two light slabs page by page: RMSE, largest difference, flux (as bakeslab "
+    "info prints it). Slabs whose geometry or numbers of samples are not the same differ; "
+    "bakeslab convert changes the numbers of samples."
+    "\vExit status: 0 same, 1 they differ, 2 trouble.\n"
+    "\n"
+    "Examples:\n"
+    "  bakeslab diff before.tif after.tif\n"
+    "  bakeslab diff --tolerance 0.022 float.exr logluv.tif";
+static const struct argp argp = {options_list, parse, "A B", doc, cli_options, NULL, NULL};
+
 int cmd_diff(int argc, char **argv) {
-  static const struct argp argp = {
-      .options = options_list,
-      .parser = parse,
-      .children = cli_options,
-      .args_doc = "A B",
-      .doc = "Compares two light slabs page by page: RMSE, largest difference, flux (as bakeslab "
-             "info prints it). Slabs whose geometry or numbers of samples are not the same differ; "
-             "bakeslab convert changes the numbers of samples."
-             "\vExit status: 0 same, 1 they differ, 2 trouble.\n"
-             "\n"
-             "Examples:\n"
-             "  bakeslab diff before.tif after.tif\n"
-             "  bakeslab diff --tolerance 0.022 float.exr logluv.tif"};
   struct options options = {0};
-  struct error error = {{0}};
-  bool differ = false;
-  cli_parse(&argp, argc, argv, &options);
-  int status = cli_end(compare(&options, &differ, &error), &error);
-  return status == CLI_OK && differ ? DIFFER : status;
+  int status = cli_run(&argp, argc, argv, compare, &options);
+  return status == CLI_OK && options.differ ? DIFFER : status;
 }

@@ -13,7 +13,7 @@
 #include "include/include_choose.h"
 #include "lamp/housing.h"
 
-static const char help_text[] =
+static const char doc[] =
     "Writes LAMP.inc, an include file for stock POV-Ray 3.7, and beside it the image LAMP.exr "
     "that it reads, which light any scene with the slab. A cluster needs no image."
     "\v"
@@ -54,7 +54,8 @@ struct arguments {
   double tolerance, distance; /* 0: no tolerance given */
 };
 
-enum { KEY_TOLERANCE = 256, KEY_DISTANCE };
+#define ARGUMENT(member) offsetof(struct arguments, member)
+#define KEY(member) VALUE_KEY(struct arguments, member)
 
 static const struct argp_option options[] = {
     {"output", 'o', "LAMP.inc", 0, "the include to write; its image gets the ending .exr", 0},
@@ -64,27 +65,23 @@ static const struct argp_option options[] = {
      "sheet: at most N lights an axis (default: one on each uv sample); cluster: at most N lights "
      "in all, up to 64 a page (default 16)",
      0},
-    {"tolerance", KEY_TOLERANCE, "T", 0, "as few lights as are at most T off (0.05 is 5 %)", 0},
-    {"distance", KEY_DISTANCE, "D", 0, "where T holds, in aperture widths (default 4)", 0},
+    {"tolerance", KEY(tolerance), "T", 0, "as few lights as are at most T off (0.05 is 5 %)", 0},
+    {"distance", KEY(distance), "D", 0, "where T holds, in aperture widths (default 4)", 0},
     {"name", 'n', "NAME", 0, "call the lamp NAME rather than what the slab says", 0},
     {0}};
 
-#define ARGUMENT(member) offsetof(struct arguments, member)
 static const struct value values[] = {{'o', VALUE_TEXT, ARGUMENT(output), 0, 0},
                                       {'l', VALUE_WHOLE, ARGUMENT(lights), 1, 65536},
-                                      {KEY_TOLERANCE, VALUE_POSITIVE, ARGUMENT(tolerance), 0, 0},
-                                      {KEY_DISTANCE, VALUE_REAL, ARGUMENT(distance), 0.01, 1e6},
+                                      {KEY(tolerance), VALUE_POSITIVE, ARGUMENT(tolerance), 0, 0},
+                                      {KEY(distance), VALUE_REAL, ARGUMENT(distance), 0.01, 1e6},
                                       {'n', VALUE_TEXT, ARGUMENT(name), 0, 0},
                                       {0}};
 
-static const char *const mode_names[] = {[INCLUDE_SHEET] = "sheet",
-                                         [INCLUDE_CLUSTER] = "cluster",
-                                         [INCLUDE_POINT] = "point",
-                                         [INCLUDE_ANY] = "auto"};
-
 static int parse_mode(const char *value, struct argp_state *state) {
-  for (int mode = 0; mode <= INCLUDE_ANY; ++mode)
-    if (mode_names[mode] && !strcmp(value, mode_names[mode])) return mode;
+  if (!strcmp(value, "sheet")) return INCLUDE_SHEET;
+  if (!strcmp(value, "cluster")) return INCLUDE_CLUSTER;
+  if (!strcmp(value, "point")) return INCLUDE_POINT;
+  if (!strcmp(value, "auto")) return INCLUDE_ANY;
   argp_error(state, "--mode %s: must be sheet, cluster, point or auto", value);
   return 0;
 }
@@ -117,7 +114,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state) {
     return 0;
   default:
     if (values_take(values, options, key, value, arguments, state) == 0) return 0;
-    return cli_parse_slab(key, value, state, &arguments->slab);
+    return cli_parse_file(key, value, state, "slab", &arguments->slab);
   }
 }
 
@@ -213,7 +210,8 @@ static enum result write_include(const struct arguments *arguments, const struct
   return result;
 }
 
-static enum result include_slab(const struct arguments *arguments, struct error *error) {
+static enum result run(void *input, struct error *error) {
+  const struct arguments *arguments = input;
   struct slab *slabs = NULL;
   int count = 0;
   struct include_choice choice = {0};
@@ -237,15 +235,10 @@ static enum result include_slab(const struct arguments *arguments, struct error 
   return result;
 }
 
+static const struct argp argp = {options, parse_option, "SLAB -o LAMP.inc", doc, cli_options,
+                                 NULL,    NULL};
+
 int cmd_include(int argc, char **argv) {
   struct arguments arguments = {.modes = INCLUDE_SHEET, .distance = default_distance};
-  static const struct argp argp = {.options = options,
-                                   .parser = parse_option,
-                                   .args_doc = "SLAB -o LAMP.inc",
-                                   .doc = help_text,
-                                   .children = cli_options};
-  cli_parse(&argp, argc, argv, &arguments);
-  struct error error;
-  if (include_slab(&arguments, &error) != RESULT_OK) return cli_fail(&error);
-  return CLI_OK;
+  return cli_run(&argp, argc, argv, run, &arguments);
 }

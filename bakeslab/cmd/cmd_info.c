@@ -19,15 +19,13 @@ struct options {
   bool json;
 };
 
+static const struct argp_option options_list[] = {{"json", 'j', NULL, 0, "Print JSON", 0}, {0}};
+static const struct value values[] = {{'j', VALUE_FLAG, offsetof(struct options, json), 0, 0}, {0}};
+
 static error_t parse(int key, char *argument, struct argp_state *state) {
   struct options *options = state->input;
-  switch (key) {
-  case 'j':
-    options->json = true;
-    return 0;
-  default:
-    return cli_parse_slab(key, argument, state, &options->path);
-  }
+  if (values_take(values, options_list, key, argument, options, state) == 0) return 0;
+  return cli_parse_file(key, argument, state, "slab", &options->path);
 }
 
 struct page {
@@ -66,9 +64,9 @@ static enum result read_page(struct slab_file *file, int number, struct page *pa
 
 /* ---- JSON ---- */
 
-static json_t *numbers(const double *values, size_t count) {
+static json_t *numbers(const double *list, size_t count) {
   json_t *array = json_array();
-  for (size_t k = 0; k < count; ++k) json_array_append_new(array, json_real(values[k]));
+  for (size_t k = 0; k < count; ++k) json_array_append_new(array, json_real(list[k]));
   return array;
 }
 
@@ -158,7 +156,8 @@ static enum result print_provenance(const struct page *page, struct error *error
   return result;
 }
 
-static enum result run(const struct options *options, struct error *error) {
+static enum result run(void *input, struct error *error) {
+  const struct options *options = input;
   struct slab_file *file = NULL;
   struct page *pages = NULL;
   enum result result = slab_file_open(options->path, &file, error);
@@ -190,12 +189,9 @@ static const char doc[] =
     "  bakeslab info lamp.tif\n"
     "  bakeslab info --json lamp.tif | jq '.pages[0].flux'";
 
-static const struct argp_option option[] = {{"json", 'j', NULL, 0, "Print JSON", 0}, {0}};
-static const struct argp argp = {option, parse, "SLAB", doc, cli_options, NULL, NULL};
+static const struct argp argp = {options_list, parse, "SLAB", doc, cli_options, NULL, NULL};
 
 int cmd_info(int argc, char **argv) {
   struct options options = {0};
-  struct error error = {{0}};
-  cli_parse(&argp, argc, argv, &options);
-  return cli_end(run(&options, &error), &error);
+  return cli_run(&argp, argc, argv, run, &options);
 }

@@ -22,7 +22,7 @@ static const struct value values[] = {
 static error_t parse(int key, char *argument, struct argp_state *state) {
   struct options *options = state->input;
   if (values_take(values, options_list, key, argument, options, state) == 0) return 0;
-  return cli_parse_slab(key, argument, state, &options->path);
+  return cli_parse_file(key, argument, state, "slab", &options->path);
 }
 
 /* A page of which some views are loaded. Memory that no ray touches is never
@@ -150,19 +150,17 @@ static enum result run(const struct options *options, struct error *error) {
   return result;
 }
 
+static const char doc[] =
+    "Reads rays `ox oy oz dx dy dz` in lamp space from standard input, one a line, and "
+    "prints the radiance `r g b` that leaves the lamp along each. The origin may be any "
+    "point of the ray, before or behind the aperture. Empty lines and lines that start "
+    "with # are skipped."
+    "\vExamples:\n"
+    "  echo 0 -1 0  0 -1 0 | bakeslab lookup lamp.tif\n"
+    "  bakeslab lookup --page 2 lamp.tif < rays.txt";
+static const struct argp argp = {options_list, parse, "SLAB", doc, cli_options, NULL, NULL};
+
 int cmd_lookup(int argc, char **argv) {
-  static const struct argp argp = {
-      .options = options_list,
-      .parser = parse,
-      .children = cli_options,
-      .args_doc = "SLAB",
-      .doc = "Reads rays `ox oy oz dx dy dz` in lamp space from standard input, one a line, and "
-             "prints the radiance `r g b` that leaves the lamp along each. The origin may be any "
-             "point of the ray, before or behind the aperture. Empty lines and lines that start "
-             "with # are skipped."
-             "\vExamples:\n"
-             "  echo 0 -1 0  0 -1 0 | bakeslab lookup lamp.tif\n"
-             "  bakeslab lookup --page 2 lamp.tif < rays.txt"};
   struct options options = {0};
   struct error error = {{0}};
   cli_parse(&argp, argc, argv, &options);

@@ -18,42 +18,34 @@ struct arguments {
   struct projector projector;
 };
 
-enum {
-  OPTION_APERTURE = 256,
-  OPTION_FOCUS,
-  OPTION_WIDTH,
-  OPTION_UV,
-  OPTION_ST,
-  OPTION_WHITE,
-  OPTION_FLUX,
-  OPTION_UNIT,
-  OPTION_METRES,
-  OPTION_PRECISION
-};
+#define PROJECTOR(member) offsetof(struct arguments, projector.member)
+#define KEY(member) VALUE_KEY(struct arguments, projector.member)
 
 static const struct argp_option options[] = {
     {"output", 'o', "SLAB", 0,
      "The slab to write: .tif (LogLuv unless --precision is given) or .exr", 1},
-    {"aperture", OPTION_APERTURE, "W[xH]", 0, "Size of the opening that the light comes from", 1},
-    {"focus", OPTION_FOCUS, "D", 0, "Distance at which the picture is sharp", 1},
-    {"width", OPTION_WIDTH, "W", 0, "Width of the picture there; its pixels are square", 1},
-    {"uv", OPTION_UV, "NxM", 0,
+    {"aperture", KEY(aperture), "W[xH]", 0, "Size of the opening that the light comes from", 1},
+    {"focus", KEY(focus), "D", 0, "Distance at which the picture is sharp", 1},
+    {"width", KEY(width), "W", 0, "Width of the picture there; its pixels are square", 1},
+    {"uv", KEY(uv), "NxM", 0,
      "Positions on the aperture (default 8x8), all with the same samples: methods that sum over "
      "positions need some, for those that integrate 1x1 is as exact",
      2},
-    {"st", OPTION_ST, "NxM", 0,
+    {"st", KEY(st), "NxM", 0,
      "Samples of the picture (default: the image's pixels, at most 256 along the longer side). "
      "Fewer than pixels are means over their cells, more are interpolated",
      2},
-    {"white", OPTION_WHITE, "L", 0, "Radiance where the image is 1 (default 1)", 3},
-    {"flux", OPTION_FLUX, "F", 0,
+    {"white", KEY(white), "L", 0, "Radiance where the image is 1 (default 1)", 3},
+    {"flux", KEY(flux), "F", 0,
      "Flux of an all-white picture instead, as on a data sheet: lumens for --unit cd/m2, watts "
      "for W/(sr m2)",
      3},
-    {"unit", OPTION_UNIT, "UNIT", 0, "Unit of radiance: cd/m2, W/(sr m2) or relative (the default)",
+    {"unit", KEY(unit), "UNIT", 0, "Unit of radiance: cd/m2, W/(sr m2) or relative (the default)",
      3},
-    {"metres-per-unit", OPTION_METRES, "M", 0, "Length of a lamp unit in metres (default 1)", 3},
-    {"precision", OPTION_PRECISION, CLI_PRECISIONS, 0, "Number format of the samples", 1},
+    {"metres-per-unit", KEY(metres_per_unit), "M", 0, "Length of a lamp unit in metres (default 1)",
+     3},
+    {"precision", VALUE_KEY(struct arguments, precision), CLI_PRECISIONS, 0,
+     "Number format of the samples", 1},
     {0}};
 
 static const char doc[] =
@@ -90,7 +82,6 @@ static void parse_aperture(struct argp_state *state, const char *text, double ap
 static void check_arguments(struct argp_state *state, struct arguments *arguments) {
   struct projector *projector = &arguments->projector;
   struct error error = {{0}};
-  if (!arguments->image) argp_error(state, "no image given");
   if (!arguments->output) argp_error(state, "no output given: -o SLAB");
   if (!(projector->aperture[0] > 0)) argp_error(state, "no opening given: --aperture W[xH]");
   if (!(projector->focus > 0)) argp_error(state, "no focus given: --focus D");
@@ -101,43 +92,33 @@ static void check_arguments(struct argp_state *state, struct arguments *argument
   if (projector_check(projector, &error) != RESULT_OK) argp_error(state, "%s", error.text);
 }
 
-#define PROJECTOR(member) offsetof(struct arguments, projector.member)
 static const struct value values[] = {
     {'o', VALUE_TEXT, offsetof(struct arguments, output), 0, 0},
-    {OPTION_FOCUS, VALUE_POSITIVE, PROJECTOR(focus), 0, 0},
-    {OPTION_WIDTH, VALUE_POSITIVE, PROJECTOR(width), 0, 0},
-    {OPTION_UV, VALUE_SIZE, PROJECTOR(uv), 0, 0},
-    {OPTION_ST, VALUE_SIZE, PROJECTOR(st), 0, 0},
-    {OPTION_WHITE, VALUE_POSITIVE, PROJECTOR(white), 0, 0},
-    {OPTION_FLUX, VALUE_POSITIVE, PROJECTOR(flux), 0, 0},
-    {OPTION_UNIT, VALUE_TEXT, PROJECTOR(unit), 0, 0},
-    {OPTION_METRES, VALUE_POSITIVE, PROJECTOR(metres_per_unit), 0, 0},
-    {OPTION_PRECISION, VALUE_WORD, offsetof(struct arguments, precision), SLAB_PRECISION_LOGLUV, 0},
+    {KEY(focus), VALUE_POSITIVE, PROJECTOR(focus), 0, 0},
+    {KEY(width), VALUE_POSITIVE, PROJECTOR(width), 0, 0},
+    {KEY(uv), VALUE_SIZE, PROJECTOR(uv), 0, 0},
+    {KEY(st), VALUE_SIZE, PROJECTOR(st), 0, 0},
+    {KEY(white), VALUE_POSITIVE, PROJECTOR(white), 0, 0},
+    {KEY(flux), VALUE_POSITIVE, PROJECTOR(flux), 0, 0},
+    {KEY(unit), VALUE_TEXT, PROJECTOR(unit), 0, 0},
+    {KEY(metres_per_unit), VALUE_POSITIVE, PROJECTOR(metres_per_unit), 0, 0},
+    {VALUE_KEY(struct arguments, precision), VALUE_WORD, offsetof(struct arguments, precision),
+     SLAB_PRECISION_LOGLUV, 0},
     {0}};
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   struct arguments *arguments = state->input;
   switch (key) {
-  case OPTION_APERTURE:
+  case KEY(aperture):
     parse_aperture(state, text, arguments->projector.aperture);
-    return 0;
-  case ARGP_KEY_ARG:
-    if (arguments->image) argp_error(state, "%s: one image at a time", text);
-    arguments->image = text;
     return 0;
   case ARGP_KEY_SUCCESS:
     check_arguments(state, arguments);
     return 0;
   default:
-    return values_take(values, options, key, text, arguments, state);
+    if (values_take(values, options, key, text, arguments, state) == 0) return 0;
+    return cli_parse_file(key, text, state, "image", &arguments->image);
   }
-}
-
-/* Refuses what could not be written, and to write over the image. */
-static enum result check_output(const struct arguments *arguments, struct error *error) {
-  enum result result = output_check(&arguments->output, 1, &arguments->image, 1, error);
-  if (result != RESULT_OK) return result;
-  return slab_file_check_target(arguments->output, arguments->precision, error);
 }
 
 static enum result read_image(const char *path, struct picture *image, struct error *error) {
@@ -146,8 +127,7 @@ static enum result read_image(const char *path, struct picture *image, struct er
   if (result != RESULT_OK || !transparent) return result;
   picture_free(image);
   return result_fail(error, RESULT_BAD,
-                     "%s: has transparent pixels; put it on black first: oiiotool IMAGE --ch R,G,B "
-                     "-o OPAQUE.png",
+                     "%s: has transparent pixels; put it on black first, and save it without alpha",
                      path);
 }
 
@@ -165,7 +145,9 @@ static enum result run(void *input, struct error *error) {
   struct picture image = {0};
   struct slab slab = {0};
   struct error why = {{0}};
-  enum result result = check_output(arguments, error);
+  enum result result = output_check(&arguments->output, 1, &arguments->image, 1, error);
+  if (result == RESULT_OK)
+    result = slab_file_check_target(arguments->output, arguments->precision, error);
   if (result == RESULT_OK) result = read_image(arguments->image, &image, error);
   if (result != RESULT_OK) return result;
   result = projector_slab(&arguments->projector, &image, &slab, &why);

@@ -4,7 +4,6 @@
 #define SLAB_OPTIONS_H
 
 #include <argp.h>
-#include <stdbool.h>
 
 #include "cli/cli.h"
 #include "cli/values.h"
@@ -23,8 +22,9 @@ int cmd_projector(int argc, char **argv);
 #define CLI_PRECISIONS "logluv|float|half"
 const char *cli_precision_name(enum slab_precision precision);
 
-/* For argp: takes exactly one argument, a slab, into *path, and complains about none or
- * more. Call it for keys that are no option of the command. */
-error_t cli_parse_slab(int key, char *argument, struct argp_state *state, const char **path);
+/* For argp: takes exactly one argument, of a kind such as "slab", into *path, and complains about
+ * none or more. Call it for keys that are no option of the command. */
+error_t cli_parse_file(int key, char *argument, struct argp_state *state, const char *kind,
+                       const char **path);
 
 #endif
