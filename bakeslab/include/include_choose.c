@@ -3,7 +3,9 @@
  * 1. Each kind makes offers: the far field one; the sheet one for each number of lights, from
  *    all of them halved down to one an axis; the cluster one, as small as the tolerance allows.
  * 2. An offer's cost is the time that POV-Ray takes for it at a shaded point; its error the
- *    relative RMSE of the irradiance on a plane at the distance, of the worst page.
+ *    relative RMSE of the irradiance on a plane at the distance, of the worst page: by plane_errors
+ *    for the sheet and the far field, by cluster_error for the cluster, each against the integral
+ *    of the quadrilinear slab (plane.h).
  * 3. The cheapest offer within the tolerance is taken; if there is none, the error says which
  *    comes closest. */
 #include "include/include_choose.h"

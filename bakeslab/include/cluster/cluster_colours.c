@@ -1,4 +1,3 @@
-/* cluster_colours.c - see cluster_colours.h. */
 #include "include/cluster/cluster_colours.h"
 
 #include <string.h>

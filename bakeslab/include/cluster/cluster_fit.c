@@ -31,7 +31,7 @@ struct fit {
   int rows;  /* of receivers and the flux */
   const struct cluster_light *seeds;
   struct cluster_numbers now[CLUSTER_MOST_LIGHTS], trial[CLUSTER_MOST_LIGHTS];
-  struct cluster_colours colours; /* of the trial; its rest is owned, as all below */
+  struct cluster_colours colours; /* of the trial; its rest begins the block of all below; owned */
   double rgb_now[CLUSTER_MOST_LIGHTS][3];
   double *base, *base_now;                    /* rows x count: irradiance of rgb 1 */
   double *jacobian;                           /* rows x count x NUMBERS */
@@ -212,22 +212,23 @@ static void refine(struct fit *f) {
 
 static bool allocate(struct fit *f) {
   size_t n = (size_t)f->count, rows = (size_t)f->rows, width = n * NUMBERS;
-  f->colours.rest = calloc(rows, sizeof *f->colours.rest);
-  f->base = calloc(rows * n, sizeof *f->base);
-  f->base_now = calloc(rows * n, sizeof *f->base_now);
-  f->jacobian = calloc(rows * width, sizeof *f->jacobian);
-  f->normal = calloc(width * width, sizeof *f->normal);
-  f->damped = calloc(width * width, sizeof *f->damped);
-  return f->colours.rest && f->base && f->base_now && f->jacobian && f->normal && f->damped;
+  double *room = calloc(rows * (3 + 2 * n + width) + 2 * width * width, sizeof *room);
+  if (!room) return false;
+  f->colours.rest = (double(*)[3])room;
+  f->base = room + 3 * rows;
+  f->base_now = f->base + rows * n;
+  f->jacobian = f->base_now + rows * n;
+  f->normal = f->jacobian + rows * width;
+  f->damped = f->normal + width * width;
+  return true;
 }
 
-static void release(struct fit *f) {
-  free(f->colours.rest);
-  free(f->base);
-  free(f->base_now);
-  free(f->jacobian);
-  free(f->normal);
-  free(f->damped);
+/* Leaves out lights that shine nothing; returns how many remain. */
+static int drop_dark(struct cluster_light *lights, int count) {
+  int kept = 0;
+  for (int k = 0; k < count; ++k)
+    if (lights[k].rgb[0] + lights[k].rgb[1] + lights[k].rgb[2] > 0) lights[kept++] = lights[k];
+  return kept;
 }
 
 /* The last share of a percent of the flux, which the fit only weighs. */
@@ -243,22 +244,18 @@ static void correct_flux(const struct cluster_target *target, struct cluster_lig
 enum result cluster_fit(const struct cluster_target *target, struct cluster_light *lights,
                         int *count, struct error *error) {
   struct fit f = {.target = target, .count = *count, .rows = target->count + 1, .seeds = lights};
-  enum result result = RESULT_OK;
-  if (allocate(&f)) {
-    for (int k = 0; k < *count; ++k) {
-      f.now[k] = cluster_to_numbers(&lights[k]);
-      limit(target, &lights[k], &f.now[k]);
-    }
-    refine(&f);
-    for (int k = 0; k < *count; ++k) {
-      lights[k] = cluster_from_numbers(&f.now[k], &lights[k]);
-      memcpy(lights[k].rgb, f.rgb_now[k], sizeof lights[k].rgb);
-    }
-    *count = cluster_drop_dark(lights, *count);
-    correct_flux(target, lights, *count);
-  } else {
-    result = result_no_memory(error);
+  if (!allocate(&f)) return result_no_memory(error);
+  for (int k = 0; k < *count; ++k) {
+    f.now[k] = cluster_to_numbers(&lights[k]);
+    limit(target, &lights[k], &f.now[k]);
   }
-  release(&f);
-  return result;
+  refine(&f);
+  for (int k = 0; k < *count; ++k) {
+    lights[k] = cluster_from_numbers(&f.now[k], &lights[k]);
+    memcpy(lights[k].rgb, f.rgb_now[k], sizeof lights[k].rgb);
+  }
+  *count = drop_dark(lights, *count);
+  correct_flux(target, lights, *count);
+  free(f.colours.rest);
+  return RESULT_OK;
 }

@@ -1,27 +1,16 @@
 /* cluster_grow.c - orthogonal matching pursuit. */
 #include "include/cluster/cluster_grow.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "include/cluster/cluster_colours.h"
 
 struct growth {
   int rows, candidate_count;
-  double *tables;    /* candidates x rows; owned, as all below */
-  double *base;      /* rows x lights */
+  double *tables;    /* candidates x rows; that of one that was taken is zero */
   double (*rest)[3]; /* of each row */
-  bool *taken;       /* of the candidates */
 };
-
-static bool allocate(struct growth *g, int wanted) {
-  size_t rows = (size_t)g->rows, candidates = (size_t)g->candidate_count;
-  g->tables = calloc(rows * candidates, sizeof *g->tables);
-  g->base = calloc(rows * (size_t)wanted, sizeof *g->base);
-  g->taken = calloc(candidates, sizeof *g->taken);
-  g->rest = calloc(rows, sizeof *g->rest);
-  return g->tables && g->base && g->taken && g->rest;
-}
 
 /* The candidate that takes most of what is left; -1 where none takes anything. */
 static int best_candidate(const struct growth *g) {
@@ -30,7 +19,7 @@ static int best_candidate(const struct growth *g) {
   for (int k = 0; k < g->candidate_count; ++k) {
     const double *table = g->tables + (size_t)k * (size_t)g->rows;
     double size = 0, along[3] = {0}, gain = 0;
-    for (int r = 0; r < g->rows && !g->taken[k]; ++r) {
+    for (int r = 0; r < g->rows; ++r) {
       size += table[r] * table[r];
       for (int c = 0; c < 3; ++c) along[c] += table[r] * g->rest[r][c];
     }
@@ -46,28 +35,24 @@ enum result cluster_grow(const struct cluster_target *target,
                          const struct cluster_light *candidates, int candidate_count,
                          struct cluster_light *lights, int *count, int wanted,
                          struct error *error) {
-  struct growth g = {.rows = target->count + 1, .candidate_count = candidate_count};
+  size_t rows = (size_t)target->count + 1, tables = rows * (size_t)candidate_count;
   struct cluster_colours colours;
-  enum result result = RESULT_OK;
-  if (!allocate(&g, wanted)) {
-    result = result_no_memory(error);
-    goto out;
-  }
+  double *room = calloc(tables + rows * (size_t)(wanted + 3), sizeof *room);
+  if (!room) return result_no_memory(error);
+  double *base = room + tables; /* rows x lights */
+  colours.rest = (double(*)[3])(base + rows * (size_t)wanted);
+  struct growth g = {
+      .rows = (int)rows, .candidate_count = candidate_count, .tables = room, .rest = colours.rest};
   for (int k = 0; k < candidate_count; ++k)
-    cluster_rows(target, &candidates[k], g.tables + (size_t)k * (size_t)g.rows, 1);
-  colours.rest = g.rest;
+    cluster_rows(target, &candidates[k], room + (size_t)k * rows, 1);
   while (*count < wanted) {
-    for (int k = 0; k < *count; ++k) cluster_rows(target, &lights[k], g.base + k, *count);
-    cluster_solve(target, *count, g.base, &colours);
+    for (int k = 0; k < *count; ++k) cluster_rows(target, &lights[k], base + k, *count);
+    cluster_solve(target, *count, base, &colours);
     int best = best_candidate(&g);
     if (best < 0) break;
-    g.taken[best] = true;
+    memset(room + (size_t)best * rows, 0, rows * sizeof *room);
     lights[(*count)++] = candidates[best];
   }
-out:
-  free(g.tables);
-  free(g.base);
-  free(g.taken);
-  free(g.rest);
-  return result;
+  free(room);
+  return RESULT_OK;
 }

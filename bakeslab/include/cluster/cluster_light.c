@@ -119,10 +119,3 @@ struct cluster_light cluster_from_numbers(const struct cluster_numbers *n,
   light.cos_radius = light.cos_falloff + n->softness * (1 - light.cos_falloff);
   return light;
 }
-
-int cluster_drop_dark(struct cluster_light *lights, int count) {
-  int kept = 0;
-  for (int k = 0; k < count; ++k)
-    if (lights[k].rgb[0] + lights[k].rgb[1] + lights[k].rgb[2] > 0) lights[kept++] = lights[k];
-  return kept;
-}

@@ -51,7 +51,4 @@ struct cluster_light cluster_from_numbers(const struct cluster_numbers *numbers,
 /* Derivatives of cluster_irradiance by them. */
 struct cluster_numbers cluster_gradient(const struct cluster_light *light, const double at[3]);
 
-/* Leaves out lights that shine nothing; returns how many remain. */
-int cluster_drop_dark(struct cluster_light *lights, int count);
-
 #endif

@@ -53,10 +53,10 @@ static void add_plane(const struct slab *slab, const struct plane *plane, double
 static enum result make_room(int count, struct cluster_target *target, struct error *error) {
   size_t room = (size_t)count + 1;
   memset(target, 0, sizeof *target);
-  target->at = calloc(room, sizeof *target->at);
-  target->rgb = calloc(room, sizeof *target->rgb);
-  target->weight = calloc(room, sizeof *target->weight);
-  if (!target->at || !target->rgb || !target->weight) return result_no_memory(error);
+  target->at = calloc(room, 2 * sizeof *target->at + sizeof *target->weight);
+  if (!target->at) return result_no_memory(error);
+  target->rgb = target->at + room;
+  target->weight = target->rgb[room];
   return RESULT_OK;
 }
 
@@ -102,8 +102,6 @@ enum result cluster_gauge_make(const struct slab *slab, double distance,
 
 void cluster_target_free(struct cluster_target *target) {
   free(target->at);
-  free(target->rgb);
-  free(target->weight);
   memset(target, 0, sizeof *target);
 }
 

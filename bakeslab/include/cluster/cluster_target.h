@@ -15,9 +15,9 @@ struct cluster_target {
   double unit;      /* of irradiance and flux, in lamp units */
   double narrowest; /* lobe that the receivers see, radians: their coarsest step */
   int count;        /* of receivers, without the flux */
-  double (*at)[3];  /* owned */
-  double (*rgb)[3]; /* irradiance and, last, flux: count + 1; owned */
-  double *weight;   /* count + 1; owned */
+  double (*at)[3];  /* the block of memory that holds all three; owned */
+  double (*rgb)[3]; /* irradiance and, last, flux: count + 1 */
+  double *weight;   /* count + 1 */
 };
 
 /* To fit to: receivers on planes around `distance`, and the flux, in units of its largest

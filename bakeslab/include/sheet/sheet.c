@@ -16,7 +16,8 @@
 #include "slab/plane.h"
 #include "slab/slab_resample.h"
 
-const double sheet_distances[SHEET_DISTANCES] = {0.5, 1, 2, 4, 8};
+/* In aperture widths, as the heads of the tables in sheet_page.inc.in say. */
+static const double distances[SHEET_DISTANCES] = {0.5, 1, 2, 4, 8};
 
 static double faintest_of(const struct slab *slab) {
   double faintest = INFINITY;
@@ -94,7 +95,7 @@ static enum result make_page(const struct slab *slab, int number, int most, doub
   }
   page->faintest = faintest_of(slab) / page->levels[0].peak;
   for (int d = 0; d < SHEET_DISTANCES; ++d) {
-    measure(slab, sheet_distances[d], page, errors);
+    measure(slab, distances[d], page, errors);
     for (int k = 0; k < page->level_count; ++k) page->levels[k].error[d] = errors[k];
   }
   if (distance > 0) measure(slab, distance, page, errors);

@@ -21,10 +21,6 @@
 
 enum { SHEET_DISTANCES = 5, SHEET_RING = 1, SHEET_MOST_LEVELS = 32 };
 
-/* Distances at which the error is told, in aperture widths (longer edge), as the heads of the
- * tables in sheet_page.inc.in say. */
-extern const double sheet_distances[SHEET_DISTANCES];
-
 struct sheet_level {
   struct slab views;             /* block means of the page; owned */
   int left, bottom;              /* corner of its tiles in the image, texels */

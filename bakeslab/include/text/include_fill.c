@@ -1,4 +1,3 @@
-/* include_fill.c - see include_fill.h. */
 #include "include/text/include_fill.h"
 
 #include <stdbool.h>

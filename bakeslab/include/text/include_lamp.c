@@ -1,4 +1,3 @@
-/* include_lamp.c - see include_lamp.h. */
 #include "include/text/include_lamp.h"
 
 #include <math.h>

@@ -1,4 +1,3 @@
-/* include_text.c - see include_text.h. */
 #include "include/text/include_text.h"
 
 #include <inttypes.h>
