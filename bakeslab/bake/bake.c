@@ -144,8 +144,8 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
   const struct bake_options *options = work->options;
   enum result result = find_effects(work, state, report, error);
   if (result == RESULT_OK && options->depend)
-    result = lamp_depend_check(&state->lamp.reads, state->source.path, options->output,
-                               options->depend, error);
+    result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
+                         true, error);
   if (result == RESULT_OK && options->window_auto)
     result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
   if (result == RESULT_OK && options->tolerance > 0)
@@ -262,8 +262,8 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   report->assembled = options->shards == 1;
   /* Before the slab: with an old rule, make would take the new slab for up to date. */
   if (result == RESULT_OK && report->assembled && options->depend)
-    result = lamp_depend_write(&state.lamp.reads, state.source.path, options->output,
-                               options->depend, error);
+    result = lamp_depend(&state.lamp.reads, state.source.path, options->output, options->depend,
+                         false, error);
   if (result == RESULT_OK && report->assembled) result = write_slab(&work, &state, report, error);
   bake_store_close(&state.store, result == RESULT_OK && report->assembled);
   bake_rounds_free(&state.rounds);

@@ -2,9 +2,6 @@
 #ifndef FILES_H
 #define FILES_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
 #include "base/result.h"
 
 /* Joins a folder and a name into a new string, or NULL; the caller frees it. */

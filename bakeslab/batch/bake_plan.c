@@ -168,10 +168,6 @@ static bool add_passes(struct bake_round *round, size_t box, int from, int to, b
   return true;
 }
 
-static bool same_shape(const struct bake_box *a, const struct bake_box *b) {
-  return !memcmp(a->size, b->size, sizeof a->size);
-}
-
 static size_t batch_cost(const struct bake_batch *batch) {
   return batch->rays + CAMERA_COST * batch->count;
 }
@@ -194,7 +190,8 @@ static bool fits(const struct bake_round *round, const struct bake_batch *batch,
   bool second_of_pair =
       round->units[unit].pass % 2 && round->units[unit - 1].box == round->units[unit].box;
   if (second_of_pair) return true;
-  if (form != BAKE_MESH && (batch->count >= BATCH_FRAMES || !same_shape(box, first))) return false;
+  bool same_shape = !memcmp(box->size, first->size, sizeof box->size);
+  if (form != BAKE_MESH && (batch->count >= BATCH_FRAMES || !same_shape)) return false;
   return batch_cost(batch) < full;
 }
 

@@ -57,19 +57,29 @@ static char *batch_text(const struct bake_work *work, const struct bake_round *r
   return text;
 }
 
-/* Reads a finished batch into run->rgb; refuses one that is not whole. */
-static enum result read_batch(struct run *run, size_t batch, struct error *error) {
-  const struct bake_work *work = run->work;
-  struct povray_job job;
+/* The folder of a batch in the store, there or not, which is that of the job too; to be freed.
+ * NULL without memory. */
+static char *batch_folder(const struct run *run, size_t batch, struct povray_job *job) {
   char key[33];
-  char *text = batch_text(work, run->round, batch, &job, key);
-  char *path = text ? bake_store_path(work->store, key) : NULL;
-  job.directory = path;
-  enum result result = path ? bake_scene_read(&work->look, run->round, &run->round->batches[batch],
-                                              &job, run->rgb, error)
-                            : result_no_memory(error);
-  free(path);
+  char *text = batch_text(run->work, run->round, batch, job, key);
+  char *folder = text ? bake_store_path(run->work->store, key) : NULL;
   free(text);
+  job->directory = folder;
+  return folder;
+}
+
+/* Reads a finished batch into run->rgb; refuses one that is not whole. */
+static enum result read_batch(struct run *run, size_t batch, const struct povray_job *job,
+                              struct error *error) {
+  return bake_scene_read(&run->work->look, run->round, &run->round->batches[batch], job, run->rgb,
+                         error);
+}
+
+static enum result read_stored(struct run *run, size_t batch, struct error *error) {
+  struct povray_job job;
+  char *folder = batch_folder(run, batch, &job);
+  enum result result = folder ? read_batch(run, batch, &job, error) : result_no_memory(error);
+  free(folder);
   return result;
 }
 
@@ -82,7 +92,7 @@ static enum result take_batch(struct run *run, size_t batch, struct error *error
   while (run->sum && result == RESULT_OK && run->summed < run->round->batch_count &&
          run->ready[run->summed]) {
     size_t next = run->summed++;
-    if (next != batch) result = read_batch(run, next, error);
+    if (next != batch) result = read_stored(run, next, error);
     if (result == RESULT_OK)
       bake_sum_add(run->sum, run->round, &run->round->batches[next], run->rgb);
   }
@@ -168,8 +178,7 @@ static enum result end_batch(struct run *run, struct process *process, int statu
   const struct bake_batch *batch = &run->round->batches[process->batch];
   enum result result = povray_finish(&process->job, status, error);
   if (result != RESULT_OK) lamp_source_rename(work->source, error);
-  if (result == RESULT_OK)
-    result = bake_scene_read(&work->look, run->round, batch, &process->job, run->rgb, error);
+  if (result == RESULT_OK) result = read_batch(run, process->batch, &process->job, error);
   if (result == RESULT_OK) result = check_photons(run, process, error);
   if (result == RESULT_BAD) result_fail(error, result, "%s: %s", work->options->lamp, error->text);
   if (result == RESULT_OK) result = lamp_reads_unchanged(&work->lamp->reads, error);
@@ -193,13 +202,15 @@ static void kill_all(struct run *run) {
 
 /* ---- The loop ---- */
 
-static bool is_verified(struct run *run, size_t batch, const char *key) {
-  if (!bake_store_has(run->work->store, key)) return false;
-  bool whole = read_batch(run, batch, NULL) == RESULT_OK;
-  char *path = bake_store_path(run->work->store, key);
-  if (path && whole) count_work(run, path);
-  if (path && !whole) files_remove_tree(path); /* damaged: bake it again */
-  free(path);
+/* Whether the store has a batch, which is in run->rgb then. */
+static bool is_found(struct run *run, size_t batch) {
+  struct povray_job job;
+  char *folder = batch_folder(run, batch, &job);
+  bool there = folder && access(folder, F_OK) == 0;
+  bool whole = there && read_batch(run, batch, &job, NULL) == RESULT_OK;
+  if (whole) count_work(run, folder);
+  if (there && !whole) files_remove_tree(folder); /* damaged: bake it again */
+  free(folder);
   return whole;
 }
 
@@ -207,12 +218,7 @@ static bool is_verified(struct run *run, size_t batch, const char *key) {
 static enum result skip_found(struct run *run, struct bake_report *report, struct error *error) {
   for (; run->next < run->count; ++run->next) {
     size_t batch = run->order[run->next];
-    struct povray_job job;
-    char key[33];
-    char *text = batch_text(run->work, run->round, batch, &job, key);
-    bool found = text && is_verified(run, batch, key);
-    free(text);
-    if (!found) return RESULT_OK;
+    if (!is_found(run, batch)) return RESULT_OK;
     ++report->found;
     enum result result = take_batch(run, batch, error);
     if (result != RESULT_OK) return result;

@@ -1,4 +1,3 @@
-/* bake_store.c - see bake_store.h. */
 #include "batch/bake_store.h"
 
 #include <dirent.h>
@@ -84,10 +83,10 @@ enum result bake_store_open(const char *output, bool shared, struct bake_store *
   *store = (struct bake_store){.lock = -1};
   if (asprintf(&store->directory, "%s.partial", output) < 0) {
     store->directory = NULL;
-    return result_fail(error, RESULT_MEMORY, "out of memory");
+    return result_no_memory(error);
   }
   char *path = files_join(store->directory, lock_name);
-  if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!path) return result_no_memory(error);
   enum result result = RESULT_OK;
   for (int tries = 0; result == RESULT_OK && store->lock < 0; ++tries)
     result = tries < MOST_TRIES
@@ -151,10 +150,8 @@ char *bake_store_path(const struct bake_store *store, const char *key) {
 enum result bake_store_scratch(const struct bake_store *store, char **scratch,
                                struct error *error) {
   /* Not by process number: machines and containers that share the folder have the same. */
-  if (asprintf(scratch, "%s/%sXXXXXX", store->directory, scratch_mark) < 0) {
-    *scratch = NULL;
-    return result_fail(error, RESULT_MEMORY, "out of memory");
-  }
+  *scratch = files_join(store->directory, "scratch.XXXXXX");
+  if (!*scratch) return result_no_memory(error);
   if (mkdtemp(*scratch)) return RESULT_OK;
   enum result result =
       result_fail(error, RESULT_IO, "%s: cannot make this folder: %s", *scratch, strerror(errno));
@@ -163,17 +160,10 @@ enum result bake_store_scratch(const struct bake_store *store, char **scratch,
   return result;
 }
 
-bool bake_store_has(const struct bake_store *store, const char *key) {
-  char *path = bake_store_path(store, key);
-  bool has = path && access(path, F_OK) == 0;
-  free(path);
-  return has;
-}
-
 enum result bake_store_commit(const struct bake_store *store, const char *scratch, const char *key,
                               struct error *error) {
   char *path = bake_store_path(store, key);
-  if (!path) return result_fail(error, RESULT_MEMORY, "out of memory");
+  if (!path) return result_no_memory(error);
   enum result result = RESULT_OK;
   if (rename(scratch, path) != 0) {
     int reason = errno;

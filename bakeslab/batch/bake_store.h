@@ -32,7 +32,6 @@ void bake_store_key(char key[33], ...) __attribute__((sentinel));
 char *bake_store_path(const struct bake_store *store, const char *key);
 /* Makes an empty folder to work in, nobody else's; the caller frees the string. */
 enum result bake_store_scratch(const struct bake_store *store, char **scratch, struct error *error);
-bool bake_store_has(const struct bake_store *store, const char *key);
 /* Moves a scratch folder in place. Someone else's copy, there already, is as good. */
 enum result bake_store_commit(const struct bake_store *store, const char *scratch, const char *key,
                               struct error *error);

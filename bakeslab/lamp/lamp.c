@@ -1,4 +1,4 @@
-/* lamp.c - the probe of a lamp script; see lamp.h. */
+/* lamp.c - the trial run of a lamp script. */
 #include "lamp/lamp.h"
 
 #include <errno.h>
@@ -9,11 +9,11 @@
 
 #include "base/files.h"
 
-/* As include-pov/canned_bake.inc lays the probe's image out. */
-enum { PROBE_SIDE = 16, PROBE_VIEWS = 256, PROBE_MARKER = 5 };
+/* As include-pov/canned_bake.inc lays the trial's image out. */
+enum { TRIAL_SIDE = 16, TRIAL_VIEWS = 256, TRIAL_MARKER = 5 };
 
 /* Canned_Bake_Probe keeps the effects' cost out; what depends on them is parsed. */
-static const char probe_scene[] = "#declare Canned_Bake_Describe = \"declared.txt\";\n"
+static const char trial_scene[] = "#declare Canned_Bake_Describe = \"declared.txt\";\n"
                                   "#declare Canned_Bake_Probe = 1;\n"
                                   "#include \"canned_bake.inc\"\n"
                                   "#include \"" LAMP_SCRIPT "\"\n"
@@ -30,9 +30,9 @@ static enum result read_declarations(const struct lamp_source *source, const cha
 }
 
 static bool is_marker_row(const struct picture *picture, int row) {
-  const float *pixel = picture->rgb + (size_t)row * PROBE_SIDE * 3;
-  for (int n = 0; n < PROBE_SIDE; ++n, pixel += 3)
-    if (pixel[1] != PROBE_MARKER) return false;
+  const float *pixel = picture->rgb + (size_t)row * TRIAL_SIDE * 3;
+  for (int n = 0; n < TRIAL_SIDE; ++n, pixel += 3)
+    if (pixel[1] != TRIAL_MARKER) return false;
   return true;
 }
 
@@ -40,13 +40,13 @@ static void read_picture(const struct picture *picture, struct lamp *lamp) {
   lamp->defect_rows = is_marker_row(picture, 1) ? 1 : 0;
   lamp->mesh_camera = is_marker_row(picture, 0) && !is_marker_row(picture, 2);
   size_t count = (size_t)picture->width * (size_t)picture->height * 3;
-  for (size_t n = (size_t)(1 + lamp->defect_rows) * PROBE_SIDE * 3; n < count; ++n) {
+  for (size_t n = (size_t)(1 + lamp->defect_rows) * TRIAL_SIDE * 3; n < count; ++n) {
     double value = fabs((double)picture->rgb[n]);
     if (value > lamp->peak) lamp->peak = value; /* Inf stays Inf, NaN is ignored */
   }
 }
 
-static enum result write_probe(const char *directory, const struct effects *effects,
+static enum result write_trial(const char *directory, const struct effects *effects,
                                struct error *error) {
   char *scene = NULL;
   size_t size;
@@ -54,7 +54,7 @@ static enum result write_probe(const char *directory, const struct effects *effe
   if (!out) return result_no_memory(error);
   fputs("#version 3.7;\n", out);
   if (effects) effects_declare(effects, out);
-  fputs(probe_scene, out);
+  fputs(trial_scene, out);
   enum result result = fclose(out) || !scene ? result_no_memory(error)
                                              : files_write(directory, "scene.pov", scene, error);
   free(scene);
@@ -83,14 +83,14 @@ enum result lamp_try(const struct povray *povray, const struct lamp_source *sour
   struct lamp_library library;
   lamp_source_library(source, &library);
   struct povray_job job = {.directory = directory,
-                           .width = PROBE_SIDE,
-                           .height = 2 + PROBE_SIDE * PROBE_VIEWS,
+                           .width = TRIAL_SIDE,
+                           .height = 2 + TRIAL_SIDE * TRIAL_VIEWS,
                            .frames = 1,
                            .library = library.paths,
                            .stop = stop};
   struct picture picture = {0};
   enum result result = lamp_source_link(source, directory, error);
-  if (result == RESULT_OK) result = write_probe(directory, effects, error);
+  if (result == RESULT_OK) result = write_trial(directory, effects, error);
   if (result == RESULT_OK) {
     result = run_listing(povray, &job, error);
     if (result != RESULT_OK) lamp_source_rename(source, error);

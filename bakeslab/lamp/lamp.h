@@ -56,13 +56,13 @@ void lamp_source_free(struct lamp_source *source);
 enum result lamp_source_link(const struct lamp_source *source, const char *directory,
                              struct error *error);
 
-/* The Library_Path entries that go with the links, NULL-terminated. Returns their
- * number. The library must stay where it is: paths[] points into it. */
+/* The Library_Path entries that go with the links, NULL-terminated. The library must stay where
+ * it is: paths[] points into it. */
 struct lamp_library {
   const char *paths[LAMP_MAX_LIBRARIES + 3];
   char names[LAMP_MAX_LIBRARIES][LAMP_LINK_SIZE];
 };
-int lamp_source_library(const struct lamp_source *source, struct lamp_library *library);
+void lamp_source_library(const struct lamp_source *source, struct lamp_library *library);
 
 /* Puts the user's file names back into a message of POV-Ray's. */
 void lamp_source_rename(const struct lamp_source *source, struct error *error);

@@ -1,7 +1,6 @@
 /* lamp_declared.c - what a script declares, as canned.inc writes it down: a key and its value
  * a line. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -74,9 +73,7 @@ static enum result add_slab(struct lamp *lamp, struct error *error) {
   struct slab *grown = realloc(lamp->slabs, (size_t)(lamp->slab_count + 1) * sizeof *grown);
   if (!grown) return result_no_memory(error);
   lamp->slabs = grown;
-  grown[lamp->slab_count] = slab_default();
-  for (int axis = 0; axis < SLAB_AXES; ++axis) grown[lamp->slab_count].samples[axis] = 1;
-  ++lamp->slab_count;
+  grown[lamp->slab_count++] = slab_default();
   return RESULT_OK;
 }
 

@@ -1,6 +1,5 @@
 #include "lamp/lamp_depend.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,36 +79,21 @@ static enum result check_path(const struct lamp_reads *reads, const char *target
   return result;
 }
 
-/* Writes the rule under a temporary name; output_commit gives it its own. */
-static enum result prepare(const struct lamp_reads *reads, const char *script, const char *target,
-                           const char *path, struct output *output, struct error *error) {
+enum result lamp_depend(const struct lamp_reads *reads, const char *script, const char *target,
+                        const char *path, bool trial, struct error *error) {
   char *text = NULL;
   size_t size = 0;
+  struct output output = {0};
   enum result result = check_path(reads, target, path, error);
   FILE *rule = result != RESULT_OK ? NULL : open_memstream(&text, &size);
   if (rule) result = put_rule(rule, reads, script, target, error);
   bool whole = rule && fclose(rule) == 0 && text;
   if (!whole && result == RESULT_OK) result = result_no_memory(error);
-  if (result == RESULT_OK) result = output_begin(output, path, error);
-  if (result == RESULT_OK && output_write(output, text, size, 0) != 0)
+  if (result == RESULT_OK) result = output_begin(&output, path, error);
+  if (result == RESULT_OK && output_write(&output, text, size, 0) != 0)
     result = result_fail(error, RESULT_IO, "%s: cannot be written: %m", path);
+  if (result == RESULT_OK && !trial) result = output_commit(&output, error);
+  output_abandon(&output);
   free(text);
-  return result;
-}
-
-enum result lamp_depend_check(const struct lamp_reads *reads, const char *script,
-                              const char *target, const char *path, struct error *error) {
-  struct output output = {0};
-  enum result result = prepare(reads, script, target, path, &output, error);
-  output_abandon(&output);
-  return result;
-}
-
-enum result lamp_depend_write(const struct lamp_reads *reads, const char *script,
-                              const char *target, const char *path, struct error *error) {
-  struct output output = {0};
-  enum result result = prepare(reads, script, target, path, &output, error);
-  if (result == RESULT_OK) result = output_commit(&output, error);
-  output_abandon(&output);
   return result;
 }

@@ -87,11 +87,10 @@ enum result lamp_source_link(const struct lamp_source *source, const char *direc
   return result;
 }
 
-int lamp_source_library(const struct lamp_source *source, struct lamp_library *library) {
-  int n = 0;
+void lamp_source_library(const struct lamp_source *source, struct lamp_library *library) {
   *library = (struct lamp_library){.paths = {folder_link, canned_link}};
-  for (; source->libraries[n]; ++n) library->paths[n + 2] = library_link(n, library->names[n]);
-  return n + 2;
+  for (int n = 0; source->libraries[n]; ++n)
+    library->paths[n + 2] = library_link(n, library->names[n]);
 }
 
 /* Replaces each `from` in the text by `to`, as far as there is room. */

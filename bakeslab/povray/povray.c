@@ -1,4 +1,3 @@
-/* povray.c - see povray.h. */
 #include "povray/povray.h"
 
 #include <errno.h>
@@ -78,11 +77,14 @@ static enum result write_ini(const struct povray_job *job, struct error *error) 
   return result;
 }
 
-/* `folder` is the job's directory as an absolute path. */
-static enum result start_there(const struct povray *povray, const struct povray_job *job,
-                               const char *folder, pid_t *pid, struct error *error) {
+enum result povray_start(const struct povray *povray, const struct povray_job *job, pid_t *pid,
+                         struct error *error) {
   const char *const program[] = {povray->program, "render.ini", NULL};
   const char *words[SANDBOX_WORDS];
+  enum result result = write_ini(job, error);
+  if (result != RESULT_OK) return result;
+  char *folder = realpath(job->directory, NULL);
+  if (!folder) return result_fail(error, RESULT_IO, "%s: %s", job->directory, strerror(errno));
   struct process process = {
       .words = program, .environment = job->environment, .folder = folder, .in = PROCESS_NOTHING};
   if (povray->sandbox) {
@@ -92,26 +94,13 @@ static enum result start_there(const struct povray *povray, const struct povray_
   }
   char *path = files_join(folder, "log");
   int log = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
-  enum result result = RESULT_OK;
   if (log < 0) result = result_fail(error, RESULT_IO, "%s/log: %s", folder, strerror(errno));
   process.out = process.errors = log;
   if (result == RESULT_OK) result = process_start(&process, error);
   if (log >= 0) close(log);
   free(path);
-  *pid = process.pid;
-  return result;
-}
-
-enum result povray_start(const struct povray *povray, const struct povray_job *job, pid_t *pid,
-                         struct error *error) {
-  enum result result = write_ini(job, error);
-  if (result != RESULT_OK) return result;
-  char *folder = realpath(job->directory, NULL);
-  if (folder)
-    result = start_there(povray, job, folder, pid, error);
-  else
-    result = result_fail(error, RESULT_IO, "%s: %s", job->directory, strerror(errno));
   free(folder);
+  *pid = process.pid;
   return result;
 }
 

@@ -5,24 +5,13 @@
 
 #include "base/process.h"
 
-/* /run may have removable disks too, perhaps with the lamp. */
-static const char *const walls[] = {"bwrap",
-                                    "--unshare-all",
-                                    "--die-with-parent",
-                                    "--new-session",
-                                    "--ro-bind",
-                                    "/",
-                                    "/",
-                                    "--dev",
-                                    "/dev",
-                                    "--proc",
-                                    "/proc",
-                                    "--tmpfs",
-                                    "/run",
-                                    "--ro-bind-try",
-                                    "/run/media",
-                                    "/run/media",
+static const char *const walls[] = {"bwrap", "--unshare-all", "--die-with-parent", "--new-session",
                                     NULL};
+static const char *const folders[] = {"--ro-bind", "/",      "/",     "--dev",
+                                      "/dev",      "--proc", "/proc", NULL};
+/* Removable disks are there too, perhaps with the lamp. */
+static const char *const run[] = {"--tmpfs",    "/run",       "--ro-bind-try",
+                                  "/run/media", "/run/media", NULL};
 
 static size_t add(const char *const *list, const char **words, size_t count) {
   for (; *list; ++list) words[count++] = *list;
@@ -32,7 +21,8 @@ static size_t add(const char *const *list, const char **words, size_t count) {
 void sandbox_command(const char *const *program, const char *folder, const char *const *environment,
                      const char *words[SANDBOX_WORDS]) {
   const char *const place[] = {"--bind", folder, folder, "--chdir", folder, NULL};
-  size_t count = add(place, words, add(walls, words, 0));
+  size_t count = add(run, words, add(folders, words, add(walls, words, 0)));
+  count = add(place, words, count);
   for (; environment && *environment; environment += 2) {
     const char *const variable[] = {"--setenv", environment[0], environment[1], NULL};
     count = add(variable, words, count);

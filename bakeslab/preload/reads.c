@@ -26,17 +26,12 @@ static void note(const char *path) {
 /* The next definition of the function that is being replaced. */
 #define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-FILE *fopen(const char *path, const char *mode) {
-  FILE *file = NEXT(fopen)(path, mode);
-  if (file && mode[0] == 'r') note(path);
-  return file;
-}
-
-FILE *fopen64(const char *path, const char *mode) {
-  FILE *file = NEXT(fopen64)(path, mode);
-  if (file && mode[0] == 'r') note(path);
-  return file;
-}
+#define FOPEN(name)                                                                                \
+  FILE *name(const char *path, const char *mode) {                                                 \
+    FILE *file = NEXT(name)(path, mode);                                                           \
+    if (file && mode[0] == 'r') note(path);                                                        \
+    return file;                                                                                   \
+  }
 
 #define OPEN(name)                                                                                 \
   int name(const char *path, int flags, ...) {                                                     \
@@ -49,5 +44,7 @@ FILE *fopen64(const char *path, const char *mode) {
     return file;                                                                                   \
   }
 
+FOPEN(fopen)
+FOPEN(fopen64)
 OPEN(open)
 OPEN(open64)

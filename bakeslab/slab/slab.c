@@ -1,4 +1,3 @@
-/* slab.c - geometry, samples and lookup of a light slab; see slab.h. */
 #include "slab/slab.h"
 
 #include <limits.h>

@@ -4,7 +4,6 @@
 #include "slab/slab_gauss.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Eigenvalues of the symmetric tridiagonal matrix with `diagonal` and
  * `off` (off[k] couples k and k + 1), and the first components of its

@@ -2,7 +2,6 @@
  * [v][t][u][s][rgb], so each axis is the middle one of outer x n x inner. */
 #include "slab/slab_resample.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
