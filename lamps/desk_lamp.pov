@@ -7,7 +7,7 @@
 // A matt shade shines up to grazing angles, of which `bakeslab check` warns; 2.5 % of the light
 // is beyond slope 3, 72 degrees.
 // Bake: bakeslab bake desk_lamp.pov -o desk_lamp.tif --uv 16x16 --st 64x64
-// Use: object { Desk_Lamp_Canned(1, 1) } object { Desk_Lamp_Canned_Case() } on a desk at y = 0
+// Use: object { Desk_Lamp_Canned(1, 1) } object { Desk_Lamp_Canned_Housing() } on a desk at y = 0
 // Licence: CC0
 #version 3.7;
 #include "canned.inc"
@@ -35,7 +35,7 @@ union {
   finish { diffuse 1 }
 }
 
-// What is seen of the lamp from outside; scenes get it as Desk_Lamp_Canned_Case().
+// What is seen of the lamp from outside; scenes get it as Desk_Lamp_Canned_Housing().
 #declare Canned_Housing = union {
   cone { Joint + 4*Down, 3.1, Opening - 0.01*Down, Radius + 0.1 open }
   cone { Joint - Down, 2.2, Joint + 4*Down, 3.1 }

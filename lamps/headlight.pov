@@ -74,7 +74,7 @@ difference {
   texture { Black }
 }
 
-// What is seen of the headlight from outside; scenes get it as Headlight_Canned_Case().
+// What is seen of the headlight from outside; scenes get it as Headlight_Canned_Housing().
 #declare Canned_Housing = difference {
   superellipsoid { <0.3, 0.3> scale <Width/2 + 1.5, Height/2 + 1.5, 8> translate -8.1*z }
   box { <-Width/2 - 0.2, -Height/2 - 0.2, -13.2>, <Width/2 + 0.2, Height/2 + 0.2, 1> }

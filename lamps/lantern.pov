@@ -7,7 +7,7 @@
 // there is no gap for light to get out. Base and roof shine to the side at all angles, of which
 // `bakeslab check` warns; 2 % of the light is beyond the windows.
 // Bake: bakeslab bake lantern.pov -o lantern.tif --uv 16x16 --st 64x64 --rays 64
-// Use: object { Lantern_Canned(1, 1) } object { Lantern_Canned_Case() }
+// Use: object { Lantern_Canned(1, 1) } object { Lantern_Canned_Housing() }
 // Licence: CC0
 #version 3.7;
 #include "canned.inc"
@@ -56,7 +56,7 @@ union {
   texture { Metal }
 }
 
-// What is seen of the lantern from outside; scenes get it as Lantern_Canned_Case().
+// What is seen of the lantern from outside; scenes get it as Lantern_Canned_Housing().
 #declare Canned_Housing = union {
   box { <-Side/2, 2, -Side/2>, <Side/2, Low, Side/2> }
   box { <-Side/2 - 1, 0, -Side/2 - 1>, <Side/2 + 1, 2, Side/2 + 1> }

@@ -29,7 +29,7 @@ Canned_Slab(<0, 0, 0>, Side*x, Side*z, -y, <-4, 4, -4, 4>, 0)
 
 box { <-Side/2, Height, -Side/2>, <Side/2, Height + 0.2, Side/2> pigment { rgb 0.9 } finish { diffuse 1 } }
 
-// The frame: what is seen of the panel from outside; scenes get it as Led_Panel_Canned_Case().
+// The frame: what is seen of the panel from outside; scenes get it as Led_Panel_Canned_Housing().
 #declare Canned_Housing = difference {
   box { <-Side/2 - 0.5, 0.01, -Side/2 - 0.5>, <Side/2 + 0.5, Height + 0.6, Side/2 + 0.5> }
   box { <-Side/2, 0, -Side/2>, <Side/2, Height + 0.2, Side/2> }

@@ -55,7 +55,7 @@ intersection {
 }
 cylinder { 0.1*y, Height*y, Radius open texture { Black } }
 
-// What is seen of the lamp from outside; scenes get it as Parabolic_Canned_Case().
+// What is seen of the lamp from outside; scenes get it as Parabolic_Canned_Housing().
 #declare Housing_Top = Height + Housing_Radius*Housing_Radius/(4*Focus);
 #declare Canned_Housing = union {
   intersection {

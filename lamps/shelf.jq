@@ -45,7 +45,7 @@ def card:
       + row("st plane"; plane) + row("baked in"; time)
       + "</table>\n" + effects
       + @html "<h3>In a scene</h3>\n<pre><code>#include \"\(.name).inc\"\nobject { \(.macro)(1, 1) }"
-      + (if .housing then @html "\nobject { \(.macro)_Case() }" else "" end) + "</code></pre>\n<h3>Files</h3>\n<ul>\n"
+      + (if .housing then @html "\nobject { \(.macro)_Housing() }" else "" end) + "</code></pre>\n<h3>Files</h3>\n<ul>\n"
       + (.files | map(@html "<li><a href=\"\(.name | @uri)\" download>\(.name)</a>, \(.bytes | bytes)</li>\n") | add) + "</ul>\n"
     end
   + "</article>\n";

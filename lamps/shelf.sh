@@ -80,7 +80,7 @@ facts() {
   done
   jq -n --arg name "$name" --arg about "$(about "$script")" --rawfile bake "$name.bake.log" \
     --arg macro "$(grep -m1 -oE '[A-Za-z0-9_]+_Canned\b' "$inc")" \
-    --arg housing "$(grep -c '^#macro .*_Canned_Case()' "$inc" || true)" \
+    --arg housing "$(grep -c '^#macro .*_Canned_Housing()' "$inc" || true)" \
     --slurpfile info "$name.json" --slurpfile near "$name.near.json" --slurpfile far "$name.far.json" \
     '{$name, $about, $bake, $macro, housing: ($housing != "0"), pages: $info[0].pages,
       near: $near[0].distance, far: $far[0].distance,

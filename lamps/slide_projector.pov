@@ -74,7 +74,7 @@ difference {
   texture { Black }
 }
 
-// What is seen of the projector from outside; scenes get it as Slide_Projector_Canned_Case().
+// What is seen of the projector from outside; scenes get it as Slide_Projector_Canned_Housing().
 #declare Canned_Housing = union {
   difference {
     box { <-8, -6, -30>, <16, 7, -3> }

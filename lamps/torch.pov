@@ -8,7 +8,7 @@
 // The st plane is 1 m away, where the spot is looked at. The rim's faint light goes on beyond
 // the window.
 // Bake: bakeslab bake torch.pov -o torch.tif --uv 16x16 --st 96x96
-// Use: object { Torch_Canned(1, 1) } object { Torch_Canned_Case() }
+// Use: object { Torch_Canned(1, 1) } object { Torch_Canned_Housing() }
 // Licence: CC0
 #version 3.7;
 #include "canned.inc"
@@ -48,7 +48,7 @@ union {
   photons { collect off }
 }
 
-// What is seen of the torch from outside; scenes get it as Torch_Canned_Case().
+// What is seen of the torch from outside; scenes get it as Torch_Canned_Housing().
 #declare Canned_Housing = union {
   difference {
     union {

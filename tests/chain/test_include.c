@@ -258,13 +258,13 @@ TEST(test_unseen) {
                 "by radiosity");
 }
 
-/* A housing in the slab's provenance is what the case macro draws. */
+/* A housing in the slab's provenance is what _Housing() draws, and _Case(), its earlier name. */
 TEST(test_housing) {
   make_slab();
   struct picture picture;
   chain_include(&slab, 1, "lamp", "");
-  chain_says(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Case() }", 1,
-             "Test_Lamp_Canned_Case");
+  chain_says(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Housing() }", 1,
+             "Test_Lamp_Canned_Housing");
   assert_int_equal(slab_json_set(&slab, "provenance",
                                  "{\"housing\": \"sphere { 0, 1 pigment { rgb <0, 1, 0> } "
                                  "finish { ambient 0 emission 1 diffuse 0 } }\"}",
@@ -273,11 +273,16 @@ TEST(test_housing) {
   chain_include(&slab, 1, "lamp", "");
   struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);
   struct chain_plane plane = chain_facing(&lamp, 0, 1);
-  chain_scene(&plane, 1, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Case() }");
-  chain_render(&picture);
-  const float *middle = picture.rgb + 3 * (CHAIN_SIZE / 2 * CHAIN_SIZE + CHAIN_SIZE / 2);
-  assert_true(middle[0] < 0.01F && middle[1] > 0.99F && middle[2] < 0.01F);
-  picture_free(&picture);
+  static const char *const scenes[] = {
+      "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Housing() }",
+      "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Case() }"};
+  for (int k = 0; k < 2; ++k) {
+    chain_scene(&plane, 1, scenes[k]);
+    chain_render(&picture);
+    const float *middle = picture.rgb + 3 * (CHAIN_SIZE / 2 * CHAIN_SIZE + CHAIN_SIZE / 2);
+    assert_true(middle[0] < 0.01F && middle[1] > 0.99F && middle[2] < 0.01F);
+    picture_free(&picture);
+  }
 }
 
 int main(void) {

@@ -65,7 +65,7 @@ figure() {
   done
   card wall | grep -qF "wall.inc</a>, $((($(stat -c %s wall.inc) + 999) / 1000)) kB"
   # What the page says to copy is a scene that renders: with a housing where there is one.
-  card box | grep -q 'Box_Canned_Case()'
+  card box | grep -q 'Box_Canned_Housing()'
   for lamp in wall box; do
     { echo '#version 3.7; camera { location -9*z look_at 0 }'; card $lamp | sed -n '/<code>/,/<\/code>/p' |
       sed 's/<[^>]*>//g; s/&quot;/"/g'; } >scene.pov
