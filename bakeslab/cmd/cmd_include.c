@@ -11,6 +11,7 @@
 #include "file/slab_file.h"
 #include "file/slab_json.h"
 #include "include/include_choose.h"
+#include "include/text/include_own_error.h"
 #include "lamp/housing.h"
 
 static const char doc[] =
@@ -184,12 +185,14 @@ static enum result make_lights(const struct arguments *arguments, const struct s
 }
 
 /* Says what was chosen and what is left out, and writes. */
-static enum result write_include(const struct arguments *arguments, const struct slab *slab,
-                                 const char *name, const struct include_choice *choice,
+static enum result write_include(const struct arguments *arguments, const struct slab *slabs,
+                                 int count, const char *name, const struct include_choice *choice,
                                  const char *image, struct error *error) {
   json_t *root = NULL;
-  enum result result = slab_json_root(slab, &root, error);
-  if (result != RESULT_OK) return result;
+  char *own_error = NULL;
+  enum result result = include_own_error(slabs, count, &own_error, error);
+  if (result == RESULT_OK) result = slab_json_root(&slabs[0], &root, error);
+  if (result != RESULT_OK) goto out;
   const char *housing =
       json_string_value(json_object_get(json_object_get(root, "provenance"), "housing"));
   int harmless = housing && housing_is_harmless(housing);
@@ -201,12 +204,16 @@ static enum result write_include(const struct arguments *arguments, const struct
   struct include_text text = {.name = name,
                               .file = basename(arguments->output),
                               .image = picture_of(choice) ? basename(image) : NULL,
+                              .image_path = strchr(image, '/') ? image : NULL,
                               .command = cli_command_line(),
+                              .own_error = own_error,
                               .housing = harmless ? housing : NULL,
                               .housing_left_out = housing && !harmless,
                               .chosen = *choice->why ? choice->why : NULL};
   result = write_files(choice, &text, arguments->output, image, error);
+out:
   json_decref(root);
+  free(own_error);
   return result;
 }
 
@@ -228,7 +235,7 @@ static enum result run(void *input, struct error *error) {
   if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
   if (result == RESULT_OK) result = make_lights(arguments, slabs, count, name, &choice, error);
   if (result == RESULT_OK)
-    result = write_include(arguments, &slabs[0], name, &choice, image, error);
+    result = write_include(arguments, slabs, count, name, &choice, image, error);
   free(image);
   include_choice_free(&choice);
   slab_file_free_all(slabs, count);

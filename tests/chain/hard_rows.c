@@ -308,9 +308,7 @@ static void row_beams(uint64_t *seed, struct hard_case *lit) {
 static void row_switches(uint64_t *seed, struct hard_case *lit) {
   static const char *const switches[] = {"+Q4",       "+Q5", "+Q11",   "+MB1",    "-MB", "+BM2",
                                          "+WT2 +BS5", "+UA", "-J +UL", "+Q9 -UV", "+HR", "+F +RP2"};
-  int first = lit->kind == HARD_CLUSTER; /* area lights need +Q5 */
-  lit->switches =
-      switches[first + random_choose(seed, (int)(sizeof switches / sizeof *switches) - 1 - first)];
+  lit->switches = switches[random_choose(seed, (int)(sizeof switches / sizeof *switches) - 1)];
   look_at_it(seed, lit);
 }
 

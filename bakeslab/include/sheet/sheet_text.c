@@ -21,6 +21,10 @@ static const double dropped = 1e-10;
  * is left at least; and the lowest sheet that this leaves room for. */
 static const double gate = 0.5, gap = 0.00104, least_height = 0.0011;
 
+/* How far the lights below zero stand behind the case, in scene units: POV-Ray ignores shadows
+ * closer than 0.001. */
+static const double behind = 0.0011;
+
 /* Rows of a page's table. */
 static void print_table(const void *of, FILE *out) {
   const struct sheet_page *page = of;
@@ -136,6 +140,7 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
                                          {"least_height", .number = least_height},
                                          {"gate", .number = gate},
                                          {"gap", .number = gap},
+                                         {"behind", .number = behind},
                                          {0}};
   include_print(sheet_inc, text, &sheet->lamp, values, out);
 }

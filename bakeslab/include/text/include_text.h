@@ -10,13 +10,15 @@
 
 /* What an include says besides the light itself. */
 struct include_text {
-  const char *name;     /* an identifier, capitalised: Desk_Lamp */
-  const char *file;     /* names of the include and its image, without folders */
-  const char *image;    /* NULL: it has none */
-  const char *command;  /* that made them */
-  const char *housing;  /* SDL of the visible lamp, or NULL */
-  int housing_left_out; /* there was one, which is not safe to use */
-  const char *chosen;   /* why it is of this kind, or NULL; one line */
+  const char *name;       /* an identifier, capitalised: Desk_Lamp */
+  const char *file;       /* names of the include and its image, without folders */
+  const char *image;      /* NULL: it has none */
+  const char *image_path; /* where it is written, if its name alone does not say so, or NULL */
+  const char *command;    /* that made them */
+  const char *housing;    /* SDL of the visible lamp, or NULL */
+  int housing_left_out;   /* there was one, which is not safe to use */
+  const char *own_error;  /* the slab's: include_own_error's lines */
+  const char *chosen;     /* why it is of this kind, or NULL; one line */
 };
 
 /* Prints the whole include. A template may name, beside `values`, black_pages and most_width
