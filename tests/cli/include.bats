@@ -65,6 +65,18 @@ setup() {
   done
 }
 
+@test "the header tells the slab's own error, as check --error does" {
+  light() { for k in {0..63}; do ((k * 11 % 7)) && printf 3f000000 || printf '%s' "$one"; done; }
+  raw_slab rough.tif '[4, 4, 8, 8]' 32 32 ', "name": "rough"' "$(light)"
+  told=$("$BAKESLAB" check --error rough.tif | sed -n 's/.*(.*): \(about\|at least\) \([0-9.e-]* %\) (.*/\2/p')
+  [ "$(wc -l <<<"$told")" -eq 3 ]
+  for mode in sheet cluster point; do
+    "$BAKESLAB" include rough.tif -o $mode.inc --mode $mode
+    said=$(sed -n 's,^//   page 1: about \(.*\) at 1\, \(.*\) at 4\, \(.*\) at 16.*,\1\n\2\n\3,p' $mode.inc)
+    [ "$said" = "$told" ] || { echo "$mode: $said, not $told"; false; }
+  done
+}
+
 @test "options that contradict each other" {
   misused() { # WHAT IT SAYS, OPTIONS...
     local says=$1
