@@ -20,11 +20,16 @@ struct ball {
   double center[3], radius, scattering, extinction;
 };
 
-/* A matt reflector around a bulb off its middle. */
+/* A matt reflector around a bulb off its middle, which shines along -y: across its beam a
+ * camera's rays have no part along the lights' axes, exactly. */
 static struct slab soft_slab(uint64_t seed) {
   static const int samples[4] = {4, 4, 12, 12};
   static const double edges[2] = {1, 0.8}, window[4] = {-0.8, 0.9, -0.7, 0.8};
   struct slab slab = chain_slab(samples, edges, window, INFINITY, 0, seed);
+  const double frame[3][3] = {{1, 0, 0}, {0, 0, 0.8}, {0, -1, 0}};
+  memcpy(slab.u, frame[0], sizeof slab.u);
+  memcpy(slab.v, frame[1], sizeof slab.v);
+  memcpy(slab.normal, frame[2], sizeof slab.normal);
   for (size_t m = 0; m < slab_sample_count(&slab); ++m) {
     int at[4];
     slab_locate(&slab, m, at);
@@ -93,15 +98,17 @@ static void sum_beam(const struct slab *slab, const struct ball *ball,
   }
 }
 
-/* The camera across the beam, `away` widths from the aperture. */
-static struct chain_plane look_across(const struct slab *slab, double away, double size) {
+/* The camera that looks across the beam, turned so far towards the lamp, at what is `away`
+ * widths from the aperture. */
+static struct chain_plane look_at_beam(const struct slab *slab, double away, double turned) {
+  const double size = 8;
   struct chain_plane seen;
   double lu = chain_length(slab->u), lv = chain_length(slab->v);
   for (int c = 0; c < 3; ++c) {
     seen.center[c] = slab->center[c] + away * slab->normal[c];
     seen.across[c] = size * slab->v[c] / lv;
-    seen.down[c] = size * slab->normal[c];
-    seen.normal[c] = slab->u[c] / lu;
+    seen.down[c] = size * (cos(turned) * slab->normal[c] - sin(turned) * slab->u[c] / lu);
+    seen.normal[c] = cos(turned) * slab->u[c] / lu + sin(turned) * slab->normal[c];
   }
   return seen;
 }
@@ -123,19 +130,19 @@ static void write_beam(const struct ball *ball, const struct chain_plane *seen) 
       ball->extinction / ball->scattering);
 }
 
-/* Beams through balls of clear and of thick medium, before the lamp. */
+/* Beams through balls of clear and of thick medium, before the lamp: across and aslant. */
 TEST(test_beams) {
   static double sum[3 * CHAIN_PIXELS];
-  static const double extinctions[] = {0, 0.3};
+  static const struct { double extinction, turned; } cases[] = {{0, 0}, {0.3, 0.7}, {0, -1.5}};
   struct slab slab = soft_slab(1);
-  struct chain_plane seen = look_across(&slab, 6, 8);
   struct ball ball = {.radius = 3.5, .scattering = 0.1};
-  memcpy(ball.center, seen.center, sizeof ball.center);
   for (int kind = 0; kind < KINDS; ++kind) {
     chain_include(&slab, 1, "lamp", kinds[kind]);
-    for (int thick = 0; thick < 2; ++thick) {
+    for (int n = 0; n < 3; ++n) {
       struct picture picture;
-      ball.extinction = extinctions[thick];
+      struct chain_plane seen = look_at_beam(&slab, 6, cases[n].turned);
+      memcpy(ball.center, seen.center, sizeof ball.center);
+      ball.extinction = cases[n].extinction;
       sum_beam(&slab, &ball, &seen, sum);
       write_beam(&ball, &seen);
       chain_render(&picture);
@@ -144,8 +151,8 @@ TEST(test_beams) {
         mean += (double)picture.rgb[k];
         right += sum[k];
       }
-      print_message("%-28s extinction %g: mean %+.2g, RMS %.2g\n", kinds[kind], ball.extinction,
-                    mean / right - 1, rmse);
+      print_message("%-28s extinction %g, turned %g: mean %+.2g, RMS %.2g\n", kinds[kind],
+                    ball.extinction, cases[n].turned, mean / right - 1, rmse);
       if (!(fabs(mean / right - 1) <= allowed && rmse <= 3 * allowed))
         fail_msg("%s: mean %g, not %g; RMS %g", kinds[kind], mean, right, rmse);
       picture_free(&picture);
