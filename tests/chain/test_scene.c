@@ -116,7 +116,8 @@ TEST(test_no_shadow) {
   }
 }
 
-/* A glass ball before the plane: digit for digit the same with and without the scene's photons.
+/* A glass ball before the plane: digit for digit the same with and without the scene's photons,
+ * also where one union with their flags holds both ball and lamp.
  * A cluster that takes part makes a caustic, of as much light as POV-Ray's photons keep. */
 TEST(test_photons) {
   char ball[400], sdl[600];
@@ -133,8 +134,9 @@ TEST(test_photons) {
     for (int part = 0; part < (kind == CLUSTER ? 2 : 1); ++part) {
       struct picture pictures[2];
       for (int photons = 0; photons < 2; ++photons) {
-        snprintf(sdl, sizeof sdl, "#declare Test_Lamp_Photons = %d;\n%s\n%s%s", part,
-                 CHAIN_LIT("1, 1"), ball,
+        snprintf(sdl, sizeof sdl, "#declare Test_Lamp_Photons = %d;\n" INCLUDE "%s %s %s %s %s",
+                 part, kind == CLUSTER ? "" : "union {", LAMP, ball,
+                 kind == CLUSTER ? "" : "photons { target refraction on reflection on } }",
                  photons ? "global_settings { photons { spacing 0.03 } }" : "");
         pictures[photons] = show(&stage, sdl);
       }

@@ -21,7 +21,7 @@ static const double dropped = 1e-10;
  * is left at least; and the lowest sheet that this leaves room for. */
 static const double gate = 0.5, gap = 0.00104, least_height = 0.0011;
 
-/* How far the lights below zero stand behind the case, in scene units: POV-Ray ignores shadows
+/* How far the lights below zero stand behind the box, in scene units: POV-Ray ignores shadows
  * closer than 0.001. */
 static const double behind = 0.0011;
 
