@@ -139,10 +139,22 @@ static enum result find_effects(struct bake_work *work, struct bake_state *state
   return result != RESULT_OK || known ? result : try_lamp(work, state, &state->effects, error);
 }
 
+/* What the trial run shows of the lamp that its author may not mean. */
+static void warn_of_lamp(const struct lamp *lamp, struct warnings *warnings) {
+  if (lamp->lights)
+    warnings_add(warnings,
+                 "%d light_source%s besides Canned_Bulb's: a ray cannot hit a point, so %s direct "
+                 "light is not in the slab, only what %s; write Canned_Bulb(centre, radius, "
+                 "radiance) instead, or an object with finish { emission ... }",
+                 lamp->lights, lamp->lights == 1 ? "" : "s", lamp->lights == 1 ? "its" : "their",
+                 lamp->lights == 1 ? "it lights" : "they light");
+}
+
 static enum result prepare(struct bake_work *work, struct bake_state *state,
                            struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
   enum result result = find_effects(work, state, report, error);
+  if (result == RESULT_OK) warn_of_lamp(&state->lamp, &report->warnings);
   if (result == RESULT_OK && options->depend)
     result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
                          true, error);
@@ -162,6 +174,7 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
 static enum result assess(const struct bake_work *work, const struct bake_state *state,
                           struct bake_report *report, struct error *error) {
   enum result result = RESULT_OK;
+  char cut_off[256] = "";
   for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
     const struct slab *page = &state->lamp.slabs[n];
     struct slab_profile profile;
@@ -169,10 +182,10 @@ static enum result assess(const struct bake_work *work, const struct bake_state 
     struct slab_accuracy accuracy = {0};
     result = slab_profile(page, &profile, error);
     for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
-      size_t used = strlen(report->cut_off);
+      size_t used = strlen(cut_off);
       if (slab_profile_cut_off(&profile, k / 2, k % 2) > 0)
-        snprintf(report->cut_off + used, sizeof report->cut_off - used, "%spage %d %s %c",
-                 used ? ", " : "", n + 1, k % 2 ? "high" : "low", "uvst"[k / 2]);
+        snprintf(cut_off + used, sizeof cut_off - used, "%spage %d %s %c", used ? ", " : "", n + 1,
+                 k % 2 ? "high" : "low", "uvst"[k / 2]);
     }
     slab_profile_free(&profile);
     if (result == RESULT_OK) result = slab_json_sampling(page, &sampling, error);
@@ -181,6 +194,9 @@ static enum result assess(const struct bake_work *work, const struct bake_state 
                                       &accuracy, error);
     if (!(accuracy.all <= report->error)) report->error = accuracy.all;
   }
+  if (result == RESULT_OK && cut_off[0])
+    warnings_add(&report->warnings,
+                 "light goes on beyond the st window (%s); enlarge it in Canned_Slab", cut_off);
   return result;
 }
 
@@ -203,7 +219,9 @@ static enum result find_housing(const struct bake_work *work, struct bake_report
   if (*housing && result == RESULT_OK)
     result = housing_parses(work->povray, *housing, scratch, error);
   if (result == RESULT_BAD) {
-    report->housing_left_out = true;
+    warnings_add(&report->warnings,
+                 "Canned_Housing is left out of the slab, since it does not parse with only the "
+                 "numbers declared before it; write it without includes and macros");
     free(*housing);
     *housing = NULL;
     result = RESULT_OK;
@@ -211,6 +229,27 @@ static enum result find_housing(const struct bake_work *work, struct bake_report
   free(scratch);
   free(script);
   return result;
+}
+
+/* Writes into the pages how they were baked. */
+static enum result record(const struct bake_work *work, const struct bake_state *state,
+                          const struct bake_report *report, struct error *error) {
+  char *text = NULL;
+  enum result result = bake_provenance(work, &state->origin, &report->warnings, &text, error);
+  for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n)
+    result = slab_json_set(&state->lamp.slabs[n], "provenance", text, error);
+  free(text);
+  return result;
+}
+
+/* With --strict, warnings end the bake. */
+static enum result be_strict(const struct bake_work *work, const struct bake_report *report,
+                             struct error *error) {
+  int count = report->warnings.count;
+  if (!work->options->strict || count == 0) return RESULT_OK;
+  return result_fail(error, RESULT_BAD,
+                     "%s: %d warning%s, which --strict takes for a failure: no slab is written",
+                     work->source->script, count, count == 1 ? "" : "s");
 }
 
 static enum result write_slab(const struct bake_work *work, struct bake_state *state,
@@ -221,16 +260,14 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
   bake_sum_noise(state->rounds.sum, work->look.gain, &state->origin.noise);
   enum result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
   if (result == RESULT_OK) result = find_housing(work, report, &state->origin.housing, error);
-  char *text = NULL;
-  if (result == RESULT_OK) result = bake_provenance(work, &state->origin, &text, error);
-  for (int n = 0; n < count && result == RESULT_OK; ++n) {
-    result = slab_json_set(&pages[n], "provenance", text, error);
-    if (result == RESULT_OK)
-      result = slab_json_set(&pages[n], "samples_are",
-                             options->centre ? "\"points\"" : "\"cell_means\"", error);
-  }
-  free(text);
+  for (int n = 0; n < count && result == RESULT_OK; ++n)
+    result = slab_json_set(&pages[n], "samples_are",
+                           options->centre ? "\"points\"" : "\"cell_means\"", error);
+  /* Twice: the assessment reads the noise there, and its warnings go there. */
+  if (result == RESULT_OK) result = record(work, state, report, error);
   if (result == RESULT_OK) result = assess(work, state, report, error);
+  if (result == RESULT_OK) result = be_strict(work, report, error);
+  if (result == RESULT_OK) result = record(work, state, report, error);
   if (result == RESULT_OK)
     result = slab_file_write(options->output, pages, count, options->precision, error);
   return result;
@@ -239,7 +276,7 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
 enum result bake(const struct bake_options *options, const volatile sig_atomic_t *stop,
                  struct bake_report *report, struct error *error) {
   struct bake_state state = {.store = {.lock = -1}};
-  *report = (struct bake_report){0};
+  *report = (struct bake_report){.warnings.tell = options->warn};
   struct bake_work work = {.options = options,
                            .effort = bake_effort_of(options),
                            .povray = &state.povray,
@@ -257,6 +294,7 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   if (result == RESULT_OK)
     result = bake_store_open(options->output, options->shards > 1, &state.store, error);
   if (result == RESULT_OK) result = prepare(&work, &state, report, error);
+  if (result == RESULT_OK) result = be_strict(&work, report, error);
   if (result == RESULT_OK) result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   /* A shard leaves the slab to the run without --shard. */
   report->assembled = options->shards == 1;

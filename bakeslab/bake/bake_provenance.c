@@ -19,8 +19,15 @@ static json_t *effects_json(const struct bake_work *work, const struct bake_orig
   return object;
 }
 
+static json_t *warnings_json(const struct warnings *warnings) {
+  json_t *array = json_array();
+  for (int n = 0; n < warnings_kept(warnings); ++n)
+    json_array_append_new(array, json_any_string(warnings->lines[n]));
+  return array;
+}
+
 enum result bake_provenance(const struct bake_work *work, const struct bake_origin *origin,
-                            char **text, struct error *error) {
+                            const struct warnings *warnings, char **text, struct error *error) {
   static const char *const forms[] = {"mesh", "perspective", "transposed"};
   const struct bake_noise *noise = &origin->noise;
   unsigned long mark = json_mark();
@@ -38,6 +45,7 @@ enum result bake_provenance(const struct bake_work *work, const struct bake_orig
     json_object_set_new(object, "window", json_string(origin->window.line));
   if (work->options->tolerance > 0)
     json_object_set_new(object, "resolution", json_string(origin->resolution.line));
+  if (warnings->count > 0) json_object_set_new(object, "warnings", warnings_json(warnings));
   if (origin->housing) json_object_set_new(object, "housing", json_string(origin->housing));
   enum result result = json_text(object, mark, JSON_COMPACT, text, error);
   json_decref(object);

@@ -19,6 +19,6 @@ struct bake_origin {
 
 /* The caller frees the text. */
 enum result bake_provenance(const struct bake_work *work, const struct bake_origin *origin,
-                            char **text, struct error *error);
+                            const struct warnings *warnings, char **text, struct error *error);
 
 #endif

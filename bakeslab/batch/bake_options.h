@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "base/warnings.h"
 #include "file/slab_precision.h"
 
 struct bake_options {
@@ -28,6 +29,8 @@ struct bake_options {
   int shard, shards; /* this process bakes batches shard, shard+shards, ... */
   enum slab_precision precision;
   bool quiet;
+  void (*warn)(const char *line); /* told each warning at once; NULL: nobody */
+  bool strict;                    /* a warning is a failure */
   const char *depend;  /* a rule for make goes there before the slab is written, or NULL */
   const char *command; /* for the provenance */
 };
@@ -39,9 +42,8 @@ struct bake_report {
   double cpu, probe_cpu; /* seconds of POV-Ray in this run, for the slab and before it */
   double traced;         /* rays of all kinds, by POV-Ray's own count, of all batches */
   int depth;             /* the deepest trace level that POV-Ray reached */
-  char cut_off[256];     /* where the light goes on beyond a page's window; or empty */
   double error;          /* the slab's own, as slab_accuracy.h estimates it; with a tolerance */
-  bool housing_left_out; /* the script's housing does not parse by itself */
+  struct warnings warnings;
 };
 
 #endif

@@ -17,6 +17,12 @@ static void on_signal(int number) {
   stop = 1;
 }
 
+static const char *lamp; /* that is being baked */
+
+static void warn(const char *line) {
+  cli_complain("%s: warning: %s", lamp, line);
+}
+
 struct arguments {
   struct bake_options bake;
   const char *libraries[LAMP_MAX_LIBRARIES + 1];
@@ -77,6 +83,10 @@ static const struct argp_option options[] = {
     {"sandbox", KEY(sandbox), 0, 0,
      "run POV-Ray in a sandbox (bubblewrap): it can read files, but write only to its working "
      "folder, and has no network",
+     4},
+    {"strict", KEY(strict), 0, 0,
+     "take a warning for a failure: no slab is written, and the exit status is 1. What is baked "
+     "stays in SLAB.partial; without --strict the same command writes the slab from there",
      4},
     {"depend", KEY(depend), "FILE", 0,
      "write a rule for make: SLAB depends on every file that the script reads (as gcc's -MD -MF "
@@ -149,6 +159,7 @@ static const struct value values[] = {
     {'j', VALUE_WHOLE, BAKE(jobs), 1, 1024},
     {KEY(povray), VALUE_TEXT, BAKE(povray), 0, 0},
     {KEY(sandbox), VALUE_FLAG, BAKE(sandbox), 0, 0},
+    {KEY(strict), VALUE_FLAG, BAKE(strict), 0, 0},
     {KEY(depend), VALUE_TEXT, BAKE(depend), 0, 0},
     {0}};
 
@@ -212,13 +223,6 @@ static void set_sizes(struct bake_options *bake) {
 }
 
 static void report_done(const struct bake_options *bake, const struct bake_report *report) {
-  if (report->housing_left_out)
-    cli_complain("%s: note: Canned_Housing is left out of the slab, since it does not parse with "
-                 "only the numbers declared before it; write it without includes and macros",
-                 bake->lamp);
-  if (report->cut_off[0])
-    cli_note("%s: note: light goes on beyond the st window (%s); enlarge it in Canned_Slab",
-             bake->lamp, report->cut_off);
   if (report->assembled && bake->tolerance > 0)
     cli_note("%s: note: the slab's own error is about %.2g (tolerance %g)", bake->output,
              report->error, bake->tolerance);
@@ -241,12 +245,14 @@ int cmd_bake(int argc, char **argv) {
                                          .form = -1,
                                          .jobs = processors > 0 ? (int)processors : 1,
                                          .shards = 1,
+                                         .warn = warn,
                                          .command = cli_command_line()}};
   struct bake_options *bake_options = &arguments.bake;
   static const struct argp argp = {options, parse_option, usage, doc, cli_options, NULL, NULL};
   cli_parse(&argp, argc, argv, &arguments);
   bake_options->libraries = arguments.libraries;
   bake_options->quiet = cli_quiet();
+  lamp = bake_options->lamp;
   if (!check_rays(bake_options)) return CLI_USAGE;
   set_sizes(bake_options);
   struct sigaction action = {.sa_handler = on_signal};

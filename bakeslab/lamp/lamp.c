@@ -97,7 +97,9 @@ enum result lamp_try(const struct povray *povray, const struct lamp_source *sour
     if (result == RESULT_BAD) result_fail(error, result, "%s: %s", source->script, error->text);
   }
   lamp->own_radiosity = povray_statistic(directory, "Radiosity samples calculated:") >= 0;
+  double lights = povray_statistic(directory, "Light Sources:");
   if (result == RESULT_OK) result = read_declarations(source, directory, lamp, error);
+  if (result == RESULT_OK && lights > lamp->bulbs) lamp->lights = (int)lights - lamp->bulbs;
   if (result == RESULT_OK)
     result = lamp_reads_collect(directory, source->path, source->script, &lamp->reads, error);
   if (result == RESULT_OK) result = povray_read_frame(&job, 0, &picture, error);

@@ -38,7 +38,8 @@ struct lamp {
   bool needs_declared;
   char needs[256];         /* of Canned_Needs */
   struct lamp_reads reads; /* every file that the script reads */
-  bool bulbs;              /* Canned_Bulb was called */
+  int bulbs;               /* calls of Canned_Bulb */
+  int lights;              /* light_sources besides theirs, by POV-Ray's own count */
   double peak;             /* brightest radiance that the trial run saw, any channel */
   bool own_radiosity;      /* the script turns radiosity on by itself */
   bool mesh_camera;        /* works */

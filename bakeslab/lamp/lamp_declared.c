@@ -34,7 +34,7 @@ static bool read_text(const char *value, char *text, size_t size) {
 static bool read_bulb(const char *value, struct lamp *lamp) {
   double rgb[3];
   if (!read_numbers(value, 3, rgb)) return false;
-  lamp->bulbs = true;
+  ++lamp->bulbs;
   for (int c = 0; c < 3; ++c) lamp->peak = fmax(lamp->peak, fabs(rgb[c]));
   return true;
 }
