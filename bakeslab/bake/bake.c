@@ -24,6 +24,7 @@
 #include <string.h>
 
 #include "bake/bake_provenance.h"
+#include "bake/bake_warnings.h"
 #include "base/files.h"
 #include "batch/bake_rounds.h"
 #include "file/slab_file.h"
@@ -34,7 +35,6 @@
 #include "probe/probe_resolution.h"
 #include "probe/probe_window.h"
 #include "slab/slab_accuracy.h"
-#include "slab/slab_profile.h"
 
 struct bake_state {
   struct povray povray;
@@ -96,8 +96,8 @@ static enum result try_lamp(struct bake_work *work, struct bake_state *state,
   lamp_free(&state->lamp);
   enum result result = bake_store_scratch(&state->store, &scratch, error);
   if (result == RESULT_OK)
-    result =
-        lamp_try(&state->povray, &state->source, scratch, effects, work->stop, &state->lamp, error);
+    result = lamp_try(&state->povray, &state->source, scratch, effects, NULL, work->stop,
+                      &state->lamp, error);
   free(scratch);
   for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
     int *samples = state->lamp.slabs[n].samples;
@@ -135,26 +135,19 @@ static enum result find_effects(struct bake_work *work, struct bake_state *state
     if (result == RESULT_OK)
       result = probe_effects(work, &state->effects, &state->origin.probe, report, error);
   }
+  if (result == RESULT_OK && !state->effects.named && !state->origin.probed) {
+    result = try_lamp(work, state, &state->effects, error);
+    if (result == RESULT_OK) result = probe_photons(work, &state->effects, report, error);
+  }
   bool known = automatic && !state->origin.probed && !effects_any(&state->effects);
   return result != RESULT_OK || known ? result : try_lamp(work, state, &state->effects, error);
-}
-
-/* What the trial run shows of the lamp that its author may not mean. */
-static void warn_of_lamp(const struct lamp *lamp, struct warnings *warnings) {
-  if (lamp->lights)
-    warnings_add(warnings,
-                 "%d light_source%s besides Canned_Bulb's: a ray cannot hit a point, so %s direct "
-                 "light is not in the slab, only what %s; write Canned_Bulb(centre, radius, "
-                 "radiance) instead, or an object with finish { emission ... }",
-                 lamp->lights, lamp->lights == 1 ? "" : "s", lamp->lights == 1 ? "its" : "their",
-                 lamp->lights == 1 ? "it lights" : "they light");
 }
 
 static enum result prepare(struct bake_work *work, struct bake_state *state,
                            struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
   enum result result = find_effects(work, state, report, error);
-  if (result == RESULT_OK) warn_of_lamp(&state->lamp, &report->warnings);
+  if (result == RESULT_OK) result = bake_warn_of_lamp(work, &report->warnings, error);
   if (result == RESULT_OK && options->depend)
     result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
                          true, error);
@@ -173,30 +166,20 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
 
 static enum result assess(const struct bake_work *work, const struct bake_state *state,
                           struct bake_report *report, struct error *error) {
-  enum result result = RESULT_OK;
-  char cut_off[256] = "";
+  const struct slab *pages = state->lamp.slabs;
+  enum result result = bake_warn_of_darkness(work, pages, &report->warnings, error);
+  if (report->photons_lost[0])
+    warnings_add(&report->warnings, "light that meets glass is lost: %s; " BAKE_PHOTONS_ADVICE,
+                 report->photons_lost);
   for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
-    const struct slab *page = &state->lamp.slabs[n];
-    struct slab_profile profile;
     struct slab_sampling sampling;
     struct slab_accuracy accuracy = {0};
-    result = slab_profile(page, &profile, error);
-    for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
-      size_t used = strlen(cut_off);
-      if (slab_profile_cut_off(&profile, k / 2, k % 2) > 0)
-        snprintf(cut_off + used, sizeof cut_off - used, "%spage %d %s %c", used ? ", " : "", n + 1,
-                 k % 2 ? "high" : "low", "uvst"[k / 2]);
-    }
-    slab_profile_free(&profile);
-    if (result == RESULT_OK) result = slab_json_sampling(page, &sampling, error);
+    result = slab_json_sampling(&pages[n], &sampling, error);
     if (result == RESULT_OK && work->options->tolerance > 0)
-      result = slab_accuracy_estimate(page, &sampling, 1, &state->origin.resolution.distance,
+      result = slab_accuracy_estimate(&pages[n], &sampling, 1, &state->origin.resolution.distance,
                                       &accuracy, error);
     if (!(accuracy.all <= report->error)) report->error = accuracy.all;
   }
-  if (result == RESULT_OK && cut_off[0])
-    warnings_add(&report->warnings,
-                 "light goes on beyond the st window (%s); enlarge it in Canned_Slab", cut_off);
   return result;
 }
 
@@ -263,11 +246,13 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
   for (int n = 0; n < count && result == RESULT_OK; ++n)
     result = slab_json_set(&pages[n], "samples_are",
                            options->centre ? "\"points\"" : "\"cell_means\"", error);
-  /* Twice: the assessment reads the noise there, and its warnings go there. */
+  /* Twice: the assessment reads the noise there, and its warnings go there. Those of the borders
+   * do not: whoever has the slab sees them. */
   if (result == RESULT_OK) result = record(work, state, report, error);
   if (result == RESULT_OK) result = assess(work, state, report, error);
-  if (result == RESULT_OK) result = be_strict(work, report, error);
   if (result == RESULT_OK) result = record(work, state, report, error);
+  if (result == RESULT_OK) result = bake_warn_of_borders(pages, count, &report->warnings, error);
+  if (result == RESULT_OK) result = be_strict(work, report, error);
   if (result == RESULT_OK)
     result = slab_file_write(options->output, pages, count, options->precision, error);
   return result;

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +20,12 @@ static int lift(int stream, int said) {
   return fcntl(stream, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
 }
 
+static void limit(__rlimit_resource_t what, size_t most) {
+  struct rlimit now;
+  if (most == 0 || getrlimit(what, &now) != 0 || now.rlim_max <= most) return;
+  setrlimit(what, &(struct rlimit){most, most});
+}
+
 /* In the child: never returns. */
 static void become(const struct process *process, int said, pid_t parent) {
   const char *const *words = process->words, *const *variable = process->environment;
@@ -26,12 +33,19 @@ static void become(const struct process *process, int said, pid_t parent) {
   if (getppid() != parent) _exit(PROCESS_MISSING);
   setpgid(0, 0);
   signal(SIGPIPE, SIG_DFL);
-  for (; variable && *variable; variable += 2) setenv(variable[0], variable[1], 1);
+  for (; variable && *variable; variable += 2)
+    if (*variable[1])
+      setenv(variable[0], variable[1], 1);
+    else
+      unsetenv(variable[0]);
   int in = lift(process->in, said), out = lift(process->out, said),
       errors = lift(process->errors, said);
   if (dup2(errors, STDERR_FILENO) >= 0 && dup2(in, STDIN_FILENO) >= 0 &&
-      dup2(out, STDOUT_FILENO) >= 0 && (!process->folder || chdir(process->folder) == 0))
+      dup2(out, STDOUT_FILENO) >= 0 && (!process->folder || chdir(process->folder) == 0)) {
+    limit(RLIMIT_FSIZE, process->most_written);
+    limit(RLIMIT_AS, process->most_memory);
     execvp(words[0], (char *const *)(uintptr_t)words); /* which does not change them */
+  }
   dprintf(STDERR_FILENO, "%s: cannot be run (%s)\n", words[0], strerror(errno));
   _exit(PROCESS_MISSING);
 }

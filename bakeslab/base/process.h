@@ -21,10 +21,12 @@ enum {
 struct process {
   const char *const *words;       /* the program, by PATH unless it has a slash, and its arguments;
                                      NULL-terminated */
-  const char *const *environment; /* names, each with its value after it, that are set for it;
-                                     NULL-terminated; NULL: none */
+  const char *const *environment; /* names, each with its value after it, that are set for it,
+                                     or with "" are not there; NULL-terminated; NULL: none */
   const char *folder;             /* where it runs; NULL: here */
   int in, out, errors;            /* its standard streams */
+  size_t most_memory;             /* bytes of address space that it may have; 0: no limit */
+  size_t most_written;            /* bytes of a file that it may write; 0: no limit */
 
   /* filled in: */
   pid_t pid;

@@ -42,6 +42,8 @@ struct bake_report {
   double cpu, probe_cpu; /* seconds of POV-Ray in this run, for the slab and before it */
   double traced;         /* rays of all kinds, by POV-Ray's own count, of all batches */
   int depth;             /* the deepest trace level that POV-Ray reached */
+  char photons_lost[48]; /* "POV-Ray shot 5 photons and stored 0" where most light that meets glass
+                            is lost; or empty */
   double error;          /* the slab's own, as slab_accuracy.h estimates it; with a tolerance */
   struct warnings warnings;
 };

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/files.h"
+#include "povray/povray_log.h"
 
 /* A POV-Ray process is idle for some 0.2 s before its first pixel and after its last one: the next
  * may start when one has no more than these seconds left to render. */
@@ -43,6 +44,7 @@ struct run {
   size_t count, next;
   size_t rays_done, rays_all;
   double traced, depth; /* see bake_report */
+  char photons_lost[48];
   struct progress progress;
 };
 
@@ -147,29 +149,27 @@ static enum result explain_full_disk(const struct bake_store *store, size_t rays
                      store->directory, error->text);
 }
 
+/* POV-Ray says nothing of photons that miss their targets, and their light is lost. Where nobody
+ * named the effect, a lamp without targets loses nothing. */
+static void check_photons(struct run *run, const char *directory) {
+  enum { TOO_FEW = 1000 };
+  const struct effects *effects = run->work->look.effects;
+  if (!effects->setting[CAUSTICS]) return;
+  double shot = fmax(0, povray_statistic(directory, "Number of photons shot:"));
+  double stored = fmax(0, povray_statistic(directory, "Surface photons stored:"));
+  if (shot >= TOO_FEW && stored > 0) return;
+  if (!effects->named && (shot == 0 || shot >= TOO_FEW)) return;
+  snprintf(run->photons_lost, sizeof run->photons_lost, "POV-Ray shot %.0f photons and stored %.0f",
+           shot, stored);
+}
+
 /* Adds POV-Ray's own counts, from the log of a finished batch. */
 static void count_work(struct run *run, const char *directory) {
   static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
   for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)
     run->traced += fmax(0, povray_statistic(directory, labels[n]));
   run->depth = fmax(run->depth, povray_statistic(directory, "Max Level:"));
-}
-
-/* POV-Ray says nothing of photons that miss their targets, and their light is lost. */
-static enum result check_photons(const struct run *run, const struct process *process,
-                                 struct error *error) {
-  enum { TOO_FEW = 1000 };
-  const struct effects *effects = run->work->look.effects;
-  if (!effects->setting[CAUSTICS]) return RESULT_OK;
-  double shot = povray_statistic(process->scratch, "Number of photons shot:");
-  double stored = povray_statistic(process->scratch, "Surface photons stored:");
-  if (shot >= TOO_FEW && stored > 0) return RESULT_OK;
-  if (!effects->named && (shot <= 0 || shot >= TOO_FEW)) return RESULT_OK;
-  return result_fail(error, RESULT_BAD,
-                     "caustics: POV-Ray shot %.0f photons and stored %.0f; give the glass or "
-                     "mirror `photons { target ... }`, keep its centre off the bulb's, or leave "
-                     "caustics out of --effects",
-                     shot > 0 ? shot : 0, stored > 0 ? stored : 0);
+  check_photons(run, directory);
 }
 
 static enum result end_batch(struct run *run, struct process *process, int status,
@@ -179,10 +179,12 @@ static enum result end_batch(struct run *run, struct process *process, int statu
   enum result result = povray_finish(&process->job, status, error);
   if (result != RESULT_OK) lamp_source_rename(work->source, error);
   if (result == RESULT_OK) result = read_batch(run, process->batch, &process->job, error);
-  if (result == RESULT_OK) result = check_photons(run, process, error);
+  if (result == RESULT_OK) count_work(run, process->scratch);
+  if (result == RESULT_OK && run->photons_lost[0] && work->look.effects->named)
+    result =
+        result_fail(error, RESULT_BAD, "caustics: %s; " BAKE_PHOTONS_ADVICE, run->photons_lost);
   if (result == RESULT_BAD) result_fail(error, result, "%s: %s", work->options->lamp, error->text);
   if (result == RESULT_OK) result = lamp_reads_unchanged(&work->lamp->reads, error);
-  if (result == RESULT_OK) count_work(run, process->scratch);
   if (result == RESULT_OK)
     result = bake_store_commit(work->store, process->scratch, process->key, error);
   if (result != RESULT_OK) result = explain_full_disk(work->store, batch->rays, result, error);
@@ -324,6 +326,8 @@ enum result bake_run(const struct bake_work *work, const struct bake_round *roun
   progress_end(&run.progress);
   report->traced += run.traced;
   if (report->depth < run.depth) report->depth = (int)run.depth;
+  if (run.photons_lost[0])
+    memcpy(report->photons_lost, run.photons_lost, sizeof report->photons_lost);
   free(run.processes);
   free(run.order);
   free(run.ready);

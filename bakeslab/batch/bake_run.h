@@ -29,6 +29,12 @@ struct bake_work {
   const volatile sig_atomic_t *stop;
 };
 
+/* What helps where photons are lost. */
+#define BAKE_PHOTONS_ADVICE                                                                        \
+  "give the glass or mirror `photons { target ... }` and keep its centre off the bulb's, or "      \
+  "leave "                                                                                         \
+  "caustics out"
+
 /* Renders what the store lacks of a round. With a sum, all of it (this shard's batches
  * first), added to the sum in order; without, this shard's batches alone. On an error or
  * a stop all processes end and their scratch folders go; finished batches stay. */

@@ -81,7 +81,7 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
   if (look->effects->setting[INTERREFLECTION])
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
             job->height > job->width ? job->height : job->width);
-  fputs("#include \"canned_bake.inc\"\n#include \"" LAMP_SCRIPT "\"\n", out);
+  fputs("#include \"canned_bake.inc\"\n#include \"" LAMP_SCRIPT "\"\nCanned_Neutral()\n", out);
   if (look->gain != 1) {
     fprintf(out, "global_settings { adc_bailout %.17g }\n", fmin(1, look->gain) / 255);
     for (int page = 0; page < pages; ++page) print_filter(out, look->gain, &slabs[page]);

@@ -4,16 +4,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "bake/bake.h"
 #include "cmd/slab_options.h"
 #include "lamp/lamp.h"
 
-static volatile sig_atomic_t stop;
+static volatile sig_atomic_t stop, timed_out;
 
 static void on_signal(int number) {
-  (void)number;
+  if (number == SIGALRM) timed_out = 1;
   stop = 1;
 }
 
@@ -25,6 +26,7 @@ static void warn(const char *line) {
 
 struct arguments {
   struct bake_options bake;
+  double timeout; /* seconds; 0: none */
   const char *libraries[LAMP_MAX_LIBRARIES + 1];
   int library_count;
 };
@@ -87,6 +89,10 @@ static const struct argp_option options[] = {
     {"strict", KEY(strict), 0, 0,
      "take a warning for a failure: no slab is written, and the exit status is 1. What is baked "
      "stays in SLAB.partial; without --strict the same command writes the slab from there",
+     4},
+    {"timeout", VALUE_KEY(struct arguments, timeout), "SECONDS", 0,
+     "give up after this time, as for a script that does not end; finished batches stay in "
+     "SLAB.partial",
      4},
     {"depend", KEY(depend), "FILE", 0,
      "write a rule for make: SLAB depends on every file that the script reads (as gcc's -MD -MF "
@@ -160,6 +166,8 @@ static const struct value values[] = {
     {KEY(povray), VALUE_TEXT, BAKE(povray), 0, 0},
     {KEY(sandbox), VALUE_FLAG, BAKE(sandbox), 0, 0},
     {KEY(strict), VALUE_FLAG, BAKE(strict), 0, 0},
+    {VALUE_KEY(struct arguments, timeout), VALUE_POSITIVE, offsetof(struct arguments, timeout), 0,
+     0},
     {KEY(depend), VALUE_TEXT, BAKE(depend), 0, 0},
     {0}};
 
@@ -237,6 +245,21 @@ static void report_done(const struct bake_options *bake, const struct bake_repor
             bake->output, bake->shard + 1, bake->shards);
 }
 
+static void set_signals(double timeout) {
+  const struct sigaction action = {.sa_handler = on_signal};
+  struct sigaction hangup;
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+  sigaction(SIGALRM, &action, NULL);
+  sigaction(SIGHUP, NULL, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup stays in force */
+  if (!(timeout > 0 && timeout < 1e9)) return;
+  double whole = floor(timeout);
+  const struct itimerval timer = {
+      .it_value = {(time_t)whole, (suseconds_t)fmax(999999 * (timeout - whole), whole == 0)}};
+  setitimer(ITIMER_REAL, &timer, NULL);
+}
+
 int cmd_bake(int argc, char **argv) {
   long processors = sysconf(_SC_NPROCESSORS_ONLN);
   struct arguments arguments = {.bake = {.povray = "povray",
@@ -255,15 +278,12 @@ int cmd_bake(int argc, char **argv) {
   lamp = bake_options->lamp;
   if (!check_rays(bake_options)) return CLI_USAGE;
   set_sizes(bake_options);
-  struct sigaction action = {.sa_handler = on_signal};
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-  struct sigaction hangup;
-  sigaction(SIGHUP, NULL, &hangup);
-  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup stays in force */
+  set_signals(arguments.timeout);
   struct error error = {""};
   struct bake_report report;
   enum result result = bake(bake_options, &stop, &report, &error);
+  if (result == RESULT_STOPPED && timed_out)
+    result_at(result, &error, "%s: not done within --timeout %g", lamp, arguments.timeout);
   if (result == RESULT_OK) report_done(bake_options, &report);
   return cli_end(result, &error);
 }

@@ -160,14 +160,40 @@ static enum result check_page(const struct page *page, bool errors, struct error
   return result;
 }
 
+/* What the bake warned of, once a file. */
+static enum result tell_of_bake(const char *path, const struct slab *slab, int *warnings,
+                                struct error *error) {
+  json_t *root = NULL, *line;
+  size_t n;
+  enum result result = slab_json_root(slab, &root, error);
+  const json_t *lines = json_object_get(json_object_get(root, "provenance"), "warnings");
+  json_array_foreach(lines, n, line) {
+    if (!json_is_string(line)) continue;
+    char text[1024];
+    snprintf(text, sizeof text, "%s", json_string_value(line));
+    result_one_line(text);
+    printf("%s: warning, by its bake: %s\n", path, text);
+    ++*warnings;
+  }
+  json_decref(root);
+  return result;
+}
+
 static enum result check_file(const char *path, bool errors, int *warnings, struct error *error) {
   struct slab_file *file = NULL;
+  bool lit = false;
   enum result result = slab_file_open(path, &file, error);
   for (int n = 0; result == RESULT_OK && n < slab_file_pages(file); ++n) {
     struct page page = {.path = path, .file = file, .number = n, .warnings = warnings};
     result = slab_file_load(file, n, &page.slab, error);
+    if (result == RESULT_OK && n == 0) result = tell_of_bake(path, &page.slab, warnings, error);
+    if (result == RESULT_OK) lit |= slab_is_lit(&page.slab);
     if (result == RESULT_OK) result = check_page(&page, errors, error);
     slab_free(&page.slab);
+  }
+  if (result == RESULT_OK && !lit) {
+    ++*warnings;
+    printf("%s: warning: gives no light at all: every sample is 0\n", path);
   }
   slab_file_close(file);
   return result;
@@ -183,7 +209,8 @@ static const char doc[] =
     "aperture differs from the flux on a closed box around it, an aperture's width (the "
     "longer edge) away, by 1 % more than the uncertainty of the latter, a sum over some "
     "10^6 rays. It counts light twice where more than 1 % of the flux of a page leaves "
-    "through another page's aperture too.\n\n"
+    "through another page's aperture too. What the bake warned of is told again, and that a "
+    "slab gives no light at all.\n\n"
     "--error estimates the error of irradiance on a surface that faces the slab, against "
     "the lamp itself, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
     "in brackets): the RMS of the error over the RMS of the irradiance. The estimate needs "

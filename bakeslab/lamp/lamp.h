@@ -40,9 +40,11 @@ struct lamp {
   struct lamp_reads reads; /* every file that the script reads */
   int bulbs;               /* calls of Canned_Bulb */
   int lights;              /* light_sources besides theirs, by POV-Ray's own count */
-  double peak;             /* brightest radiance that the trial run saw, any channel */
+  double peak;             /* brightest radiance of the trial run and the bulbs, any channel */
+  double mean;             /* of the radiance that the trial run saw */
   bool own_radiosity;      /* the script turns radiosity on by itself */
   bool mesh_camera;        /* works */
+  bool hazy;               /* fog or media fill all of space */
   int defect_rows;         /* image rows to skip: 1 with POV-Ray 3.7's defect */
 };
 
@@ -74,10 +76,10 @@ enum result lamp_declarations(char *text, const char *script, struct lamp *lamp,
                               struct error *error);
 
 /* Runs the script in `directory`, which is made if need be, and removed. `effects` are those that
- * are on; NULL leaves that to its Canned_Needs. `stop` as for
- * povray_run. Free the lamp with lamp_free in any case. */
+ * are on; NULL leaves that to its Canned_Needs. `change` is SDL that follows the script; NULL:
+ * none. `stop` as for povray_run. Free the lamp with lamp_free in any case. */
 enum result lamp_try(const struct povray *povray, const struct lamp_source *source,
-                     const char *directory, const struct effects *effects,
+                     const char *directory, const struct effects *effects, const char *change,
                      const volatile sig_atomic_t *stop, struct lamp *lamp, struct error *error);
 void lamp_free(struct lamp *lamp);
 

@@ -56,6 +56,20 @@ static enum result add_path(struct lamp_reads *reads, const char *path, struct e
   return hash_file(path, &read->hash, error);
 }
 
+/* Notes a file that was opened to be written. `own` is the folder where POV-Ray runs, which it
+ * leaves its picture in, and canned.inc what the script declares. */
+static void add_written(struct lamp_reads *reads, const char *path, const char *own) {
+  static const char *const usual[] = {"frame.", "scene.", "declared.txt", "log"};
+  size_t length = strlen(own);
+  const char *name = strrchr(path, '/');
+  name = name ? name + 1 : path;
+  bool inside = !strncmp(path, own, length) && path[length] == '/';
+  for (size_t n = 0; inside && n < sizeof usual / sizeof *usual; ++n)
+    if (!strncmp(name, usual[n], strlen(usual[n]))) return;
+  if (!strncmp(path, "/dev/", 5) || !strncmp(path, "/proc/", 6)) return;
+  if (!reads->write[0]) snprintf(reads->write, sizeof reads->write, "%s", name);
+}
+
 /* In the order in which the files were first read. */
 static void make_key(struct lamp_reads *reads) {
   XXH128_hash_t all = {0};
@@ -76,8 +90,10 @@ enum result lamp_reads_collect(const char *directory, const char *script, const 
   if (!own || (!text && errno == ENOMEM)) result = result_no_memory(error);
   char *rest = text;
   for (char *path; own && result == RESULT_OK && rest && *rest && (path = strsep(&rest, "\n"));)
-    if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&
-        !has_path(reads, path))
+    if (*path == '>')
+      add_written(reads, path + 1, own);
+    else if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&
+             !has_path(reads, path))
       result = add_path(reads, path, error);
   /* A statically linked POV-Ray ignores preloaded libraries. */
   if (result == RESULT_OK && !has_path(reads, script))

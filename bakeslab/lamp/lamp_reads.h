@@ -1,5 +1,5 @@
-/* lamp_reads.h - the files that a lamp script reads, and whether they are still the same.
- * A library preloaded into POV-Ray lists their paths (preload/reads.c). */
+/* lamp_reads.h - the files that a lamp script reads, whether they are still the same, and those
+ * that it writes. A library preloaded into POV-Ray lists their paths (preload/reads.c). */
 #ifndef LAMP_READS_H
 #define LAMP_READS_H
 
@@ -10,7 +10,8 @@ struct lamp_read;
 struct lamp_reads {
   struct lamp_read *files;
   int count;
-  char key[33]; /* of all files' content, whatever folders they lie in */
+  char key[33];   /* of all files' content, whatever folders they lie in */
+  char write[80]; /* the name of the first file that the script writes, without its folder */
 };
 
 /* Reads the list that POV-Ray left in `directory`; files in that folder itself don't

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include "base/files.h"
 #include "base/process.h"
 #include "file/slab_exr.h"
+#include "povray/povray_log.h"
 #include "povray/sandbox.h"
 
 enum result povray_find(const char *program, struct povray *povray, struct error *error) {
@@ -50,6 +52,27 @@ enum result povray_find(const char *program, struct povray *povray, struct error
   return RESULT_OK;
 }
 
+/* What there is of memory and of file size for a POV-Ray, in bytes: far above the needs of a lamp,
+ * so that one out of control ends before the machine is short. */
+static size_t at_most(__rlimit_resource_t what, size_t most) {
+  struct rlimit own;
+  return getrlimit(what, &own) == 0 && own.rlim_max < most ? own.rlim_max : most;
+}
+
+static size_t most_written(void) {
+  return at_most(RLIMIT_FSIZE, (size_t)256 << 20);
+}
+
+static size_t most_memory(void) {
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+  return 0; /* a stand-in for POV-Ray built like this maps terabytes */
+#else
+  size_t most = at_most(RLIMIT_AS, (size_t)8 << 30);
+  size_t machine = (size_t)sysconf(_SC_PHYS_PAGES) / 4 * 3 * (size_t)sysconf(_SC_PAGE_SIZE);
+  return machine < most ? machine : most;
+#endif
+}
+
 static enum result write_ini(const struct povray_job *job, struct error *error) {
   char *text = NULL;
   size_t size = 0;
@@ -59,12 +82,12 @@ static enum result write_ini(const struct povray_job *job, struct error *error) 
           "; Written by bakeslab. Again: povray render.ini\n"
           "Input_File_Name=scene.pov\nOutput_File_Name=frame.exr\nOutput_File_Type=E\n"
           "Output_to_File=on\nWidth=%d\nHeight=%d\n"
-          "Start_Column=1\nEnd_Column=%d\nStart_Row=1\nEnd_Row=%d\n",
-          job->width, job->height, job->width, job->height);
-  if (job->frames > 1) /* of one lamp: its clock stands still */
-    fprintf(ini, "Initial_Frame=1\nFinal_Frame=%d\nInitial_Clock=0\nFinal_Clock=0\n", job->frames);
+          "Start_Column=1\nEnd_Column=%d\nStart_Row=1\nEnd_Row=%d\n"
+          "Initial_Frame=1\nFinal_Frame=%d\nInitial_Clock=0\nFinal_Clock=0\n",
+          job->width, job->height, job->width, job->height, job->frames);
   fputs("Display=off\nPause_When_Done=off\nVerbose=on\nAntialias=off\nQuality=9\nOutput_Alpha=off\n"
-        "Work_Threads=1\nContinue_Trace=off\nRemove_Bounds=on\nBounding=on\n",
+        "Grayscale_Output=off\n"
+        "Debug_Console=off\nWork_Threads=1\nContinue_Trace=off\nRemove_Bounds=on\nBounding=on\n",
         ini);
   for (const char *const *path = job->library; path && *path; ++path)
     fprintf(ini, "Library_Path=\"%s\"\n", *path);
@@ -85,10 +108,18 @@ enum result povray_start(const struct povray *povray, const struct povray_job *j
   if (result != RESULT_OK) return result;
   char *folder = realpath(job->directory, NULL);
   if (!folder) return result_fail(error, RESULT_IO, "%s: %s", job->directory, strerror(errno));
-  struct process process = {
-      .words = program, .environment = job->environment, .folder = folder, .in = PROCESS_NOTHING};
+  /* Without them POV-Ray reads no povray.ini and povray.conf but the system's. */
+  const char *environment[POVRAY_ENVIRONMENT + 5] = {"HOME", "", "POVINI", ""};
+  for (int n = 0; job->environment && job->environment[n]; ++n)
+    environment[4 + n] = job->environment[n];
+  struct process process = {.words = program,
+                            .environment = environment,
+                            .folder = folder,
+                            .in = PROCESS_NOTHING,
+                            .most_memory = most_memory(),
+                            .most_written = most_written()};
   if (povray->sandbox) {
-    sandbox_command(program, folder, job->environment, words);
+    sandbox_command(program, folder, environment, words);
     process.words = words;
     process.environment = NULL; /* not for bwrap itself */
   }
@@ -104,43 +135,27 @@ enum result povray_start(const struct povray *povray, const struct povray_job *j
   return result;
 }
 
-/* POV-Ray wraps its messages at 80 columns and continues them on lines that
- * start with a blank: joins the line at `at` with its continuations. */
-static void join_message(const char *at, char *out, size_t size) {
-  size_t n = 0;
-  while (*at && n + 1 < size) {
-    if (*at == '\n') {
-      if (at[1] != ' ') break;
-      ++at;
-      if (n && out[n - 1] == ' ') continue;
-    }
-    out[n++] = *at++;
-  }
-  out[n] = 0;
-}
-
 static enum result report_log(const struct povray_job *job, struct error *error) {
-  static const char *const marks[] = {"Parse Error:", "Fatal error", "Error:", "error:", "annot "};
-  char *log = files_read(job->directory, "log");
-  char message[768] = "";
-  for (size_t k = 0; log && !message[0] && k < sizeof marks / sizeof *marks; ++k) {
-    const char *at = log;
-    /* "Possible Parse Error" only announces the real one. */
-    while ((at = strstr(at, marks[k])) && at - log >= 9 && !strncmp(at - 9, "Possible ", 9)) ++at;
-    if (!at) continue;
-    /* The message starts where its first line, not a continuation, starts. */
-    while (at > log && !(at[-1] == '\n' && *at != ' ')) --at;
-    join_message(at, message, sizeof message);
-  }
-  free(log);
-  if (!message[0])
+  char reason[900];
+  povray_log_reason(job->directory, reason, sizeof reason);
+  if (!reason[0])
     return result_fail(error, RESULT_IO, "POV-Ray failed without a message; its log is %s/log",
                        job->directory);
-  return result_fail(error, RESULT_BAD, "POV-Ray: %s", message);
+  /* Without memory the parser says so, or nothing but that it cannot parse. */
+  if (strstr(reason, "std::bad_alloc") ||
+      !strncmp(reason, "Fatal error in parser: Cannot parse", 35))
+    return result_fail(error, RESULT_BAD, "POV-Ray needs more than %.2g GiB of memory (%s)",
+                       (double)most_memory() / 0x1p30, reason);
+  return result_fail(error, RESULT_BAD, "POV-Ray: %s", reason);
 }
 
 enum result povray_finish(const struct povray_job *job, int status, struct error *error) {
   int end = process_exit(status), number = end - PROCESS_SIGNAL;
+  if (number == SIGXFSZ)
+    return result_fail(error, RESULT_BAD,
+                       "POV-Ray wrote a file of more than %zu MiB; does the script print or write "
+                       "without end?",
+                       most_written() >> 20);
   if (number > 0)
     return result_fail(error, RESULT_IO,
                        "POV-Ray was killed by signal %d (%s); was memory or disk short?", number,
@@ -170,31 +185,7 @@ enum result povray_run(const struct povray *povray, const struct povray_job *job
 }
 
 double povray_progress(const struct povray_job *job) {
-  char path[4200], tail[2048];
-  snprintf(path, sizeof path, "%s/log", job->directory);
-  int file = open(path, O_RDONLY | O_CLOEXEC);
-  if (file < 0) return 0;
-  off_t end = lseek(file, 0, SEEK_END);
-  off_t from = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
-  ssize_t n = pread(file, tail, sizeof tail - 1, from);
-  close(file);
-  if (n <= 0) return 0;
-  tail[n] = 0;
-  /* A still counts pixels; an animation counts frames and is done when it ends. */
-  const char *format = job->frames > 1 ? "Rendering frame %lf of %lf" : "Rendered %lf of %lf";
-  double done = 0, all = 0, part = 0;
-  for (const char *at = tail; (at = strstr(at, "Render")); ++at)
-    if (sscanf(at, format, &done, &all) == 2 && all > 0)
-      part = (job->frames > 1 ? done - 1 : done) / all;
-  return part;
-}
-
-double povray_statistic(const char *directory, const char *label) {
-  char *log = files_read(directory, "log");
-  const char *at = log ? strstr(log, label) : NULL;
-  double value = at ? strtod(at + strlen(label), NULL) : -1;
-  free(log);
-  return value;
+  return povray_log_progress(job->directory, job->frames > 1);
 }
 
 enum result povray_read_frame(const struct povray_job *job, int frame, struct picture *picture,

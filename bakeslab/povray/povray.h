@@ -8,6 +8,9 @@
  * are relative and ASCII, since POV-Ray drops other characters from paths: files
  * from elsewhere come in by symbolic links.
  *
+ * No settings of the user's reach it, but the system's povray.ini, which says where its own
+ * includes are. It gets 8 GiB of memory (less on a small machine), and files of 256 MiB.
+ *
  * POV-Ray's exit status alone is not trusted: frames are decoded before use. */
 #ifndef POVRAY_H
 #define POVRAY_H
@@ -25,12 +28,15 @@ struct povray {
   bool sandbox;     /* set by the caller: runs it in one (sandbox.h) */
 };
 
+enum { POVRAY_ENVIRONMENT = 4 };
+
 struct povray_job {
   const char *directory;
   int width, height;
   int frames;                        /* 1: a still */
   const char *const *library;        /* Library_Path entries, NULL-terminated */
-  const char *const *environment;    /* as in struct process (base/process.h), or NULL */
+  const char *const *environment;    /* as in struct process (base/process.h), at most
+                                        POVRAY_ENVIRONMENT words; or NULL */
   const volatile sig_atomic_t *stop; /* set by a signal handler: povray_run ends; or NULL */
 };
 
@@ -51,10 +57,6 @@ enum result povray_run(const struct povray *povray, const struct povray_job *job
 
 /* Part of a running job that is rendered, by its log. */
 double povray_progress(const struct povray_job *job);
-
-/* A count from POV-Ray's statistics, such as "Number of photons shot:"; -1 where
- * the log has no such line. */
-double povray_statistic(const char *directory, const char *label);
 
 /* Reads a frame (0-based) and checks its size. The caller frees the picture. */
 enum result povray_read_frame(const struct povray_job *job, int frame, struct picture *picture,

@@ -24,8 +24,9 @@ void sandbox_command(const char *const *program, const char *folder, const char 
   size_t count = add(run, words, add(folders, words, add(walls, words, 0)));
   count = add(place, words, count);
   for (; environment && *environment; environment += 2) {
-    const char *const variable[] = {"--setenv", environment[0], environment[1], NULL};
-    count = add(variable, words, count);
+    const char *const set[] = {"--setenv", environment[0], environment[1], NULL};
+    const char *const unset[] = {"--unsetenv", environment[0], NULL};
+    count = add(*environment[1] ? set : unset, words, count);
   }
   words[count++] = "--";
   words[add(program, words, count)] = NULL;

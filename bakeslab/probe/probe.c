@@ -8,7 +8,7 @@
  *    subsamples (Cochran 1977, chapter 6). While the threshold is within two standard errors,
  *    double the directions along an axis.
  * 4. An effect that matters goes one step up its ladder, and again, until a step does not matter
- *    or there is none.
+ *    or there is none. Photons, whose error falls slowly, are tried once more with twice as many.
  *
  * W. G. Cochran, "Sampling Techniques", third edition, 1977. */
 #include "probe/probe.h"
@@ -124,8 +124,15 @@ static bool changes_nothing(const struct bake_work *work, enum effect effect,
          (effect == EXTENDED_SOURCE && !work->lamp->bulbs);
 }
 
+/* Without caustics all light that meets a target goes on straight: that loses less than photons
+ * that are never shot. */
+static void warn_of_photons(const struct probe_bake *with, struct warnings *warnings) {
+  warnings_add(warnings, "goes without caustics: with them %s; " BAKE_PHOTONS_ADVICE,
+               with->photons_lost);
+}
+
 /* What an effect, a step further in `more` than in `less`, changes, and the trace level that rays
- * reach with `more`. */
+ * reach with `more`. Photons that are lost change nothing, and a warning tells of them. */
 static enum result measure(const struct bake_work *work, enum effect effect,
                            const struct effects *less, const struct effects *more,
                            struct probe_change *change, int *depth, struct bake_report *report,
@@ -149,6 +156,11 @@ static enum result measure(const struct bake_work *work, enum effect effect,
       *depth = with.depth;
       certain = fabs(fabs(change->flux) - work->options->effect_threshold) > 2 * deviation;
     }
+    if (with.photons_lost[0]) {
+      warn_of_photons(&with, &report->warnings);
+      *change = (struct probe_change){.rays = 1};
+      certain = true;
+    }
     probe_bake_free(&without);
     probe_bake_free(&with);
   }
@@ -156,6 +168,33 @@ static enum result measure(const struct bake_work *work, enum effect effect,
 }
 
 /* ---- 1. and 4. All effects ---- */
+
+static void say(const struct probe_effect *found, int setting, enum effect effect,
+                char line[PROBE_LINE]) {
+  static const char *const units[EFFECTS] = {[INTERREFLECTION] = "bounces",
+                                             [CAUSTICS] = "photons",
+                                             [EXTENDED_SOURCE] = "lights a side",
+                                             [DEEP_TRACE] = "levels"};
+  int used = snprintf(line, PROBE_LINE, "%s: flux %+.2g %%, %.2g %% RMS, rays x %.2g",
+                      setting ? "on" : "off", 100 * found->first.flux, 100 * found->first.rms,
+                      found->first.rays);
+  if (setting && used > 0 && used < PROBE_LINE)
+    used += snprintf(line + used, (size_t)(PROBE_LINE - used), "; %d %s", setting, units[effect]);
+  if (setting && found->tried && used > 0 && used < PROBE_LINE)
+    snprintf(line + used, (size_t)(PROBE_LINE - used), ", %s %.2g %%, %.2g %% RMS",
+             !found->converged    ? "not converged, the last change was"
+             : effect == CAUSTICS ? "twice as many would change"
+                                  : "more would change",
+             100 * found->next.flux, 100 * found->next.rms);
+}
+
+/* What the next setting changes. */
+static void note_next(struct probe_effect *found, const struct probe_change *change,
+                      bool converged) {
+  found->next = *change;
+  found->tried = true;
+  found->converged = converged;
+}
 
 /* Tries one effect on top of `effects`, and leaves it there as far as it matters. Where rays
  * still end at the trace level, more levels may matter though this step did not. */
@@ -172,14 +211,26 @@ static enum result try_effect(const struct bake_work *work, enum effect effect,
     result = measure(work, effect, effects, &more, &change, &depth, report, error);
     bool good = matters(&change, work->options->effect_threshold);
     if (effects->setting[effect]) {
-      found->next = change;
-      found->tried = true;
-      found->converged = !good;
+      note_next(found, &change, !good);
     } else {
       found->first = change;
     }
     go_on = good || (effect == DEEP_TRACE && depth >= *step);
     if (good) *effects = more;
+  }
+  if (effects->setting[effect] && effect == CAUSTICS && result == RESULT_OK) {
+    struct effects more = *effects;
+    struct probe_change change = {0};
+    int depth = 0;
+    more.setting[effect] *= 2;
+    result = measure(work, effect, effects, &more, &change, &depth, report, error);
+    note_next(found, &change, !matters(&change, work->options->effect_threshold));
+  }
+  if (result == RESULT_OK && found->tried && !found->converged) {
+    char line[PROBE_LINE];
+    say(found, effects->setting[effect], effect, line);
+    warnings_add(&report->warnings, "%s %s; name a greater setting in --effects",
+                 effect_word(effect), line);
   }
   return result;
 }
@@ -196,21 +247,24 @@ enum result probe_effects(const struct bake_work *work, struct effects *effects,
   return result;
 }
 
+enum result probe_photons(const struct bake_work *work, struct effects *effects,
+                          struct bake_report *report, struct error *error) {
+  struct effects cheap = *effects;
+  struct probe_bake bake = {0};
+  const int samples[SLAB_AXES] = {1, 1, SPARSE, SPARSE};
+  cheap.setting[INTERREFLECTION] = 0;
+  if (!effects->setting[CAUSTICS]) return RESULT_OK;
+  enum result result =
+      probe_bake(work, work->lamp->slabs, &cheap, samples, 1, &bake, report, error);
+  if (bake.photons_lost[0]) {
+    warn_of_photons(&bake, &report->warnings);
+    effects->setting[CAUSTICS] = 0;
+  }
+  probe_bake_free(&bake);
+  return result;
+}
+
 void probe_say(const struct probe *probe, const struct effects *effects, enum effect effect,
                char line[PROBE_LINE]) {
-  static const char *const units[EFFECTS] = {[INTERREFLECTION] = "bounces",
-                                             [CAUSTICS] = "photons",
-                                             [EXTENDED_SOURCE] = "lights a side",
-                                             [DEEP_TRACE] = "levels"};
-  const struct probe_effect *found = &probe->effects[effect];
-  int setting = effects->setting[effect];
-  int used = snprintf(line, PROBE_LINE, "%s: flux %+.2g %%, %.2g %% RMS, rays x %.2g",
-                      setting ? "on" : "off", 100 * found->first.flux, 100 * found->first.rms,
-                      found->first.rays);
-  if (setting && used > 0 && used < PROBE_LINE)
-    used += snprintf(line + used, (size_t)(PROBE_LINE - used), "; %d %s", setting, units[effect]);
-  if (setting && found->tried && used > 0 && used < PROBE_LINE)
-    snprintf(line + used, (size_t)(PROBE_LINE - used), ", %s %.2g %%, %.2g %% RMS",
-             found->converged ? "more would change" : "not converged, the last change was",
-             100 * found->next.flux, 100 * found->next.rms);
+  say(&probe->effects[effect], effects->setting[effect], effect, line);
 }

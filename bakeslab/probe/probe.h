@@ -34,6 +34,10 @@ struct probe {
 enum result probe_effects(const struct bake_work *work, struct effects *effects,
                           struct probe *probe, struct bake_report *report, struct error *error);
 
+/* Takes caustics out of *effects, with a warning, where the photons of this lamp are lost. */
+enum result probe_photons(const struct bake_work *work, struct effects *effects,
+                          struct bake_report *report, struct error *error);
+
 enum { PROBE_LINE = 160 };
 
 /* What was decided on an effect and why, one line: "on: flux +36 %, ...". */

@@ -31,6 +31,7 @@ enum result probe_bake(const struct bake_work *work, const struct slab *slabs,
   bake_rounds_free(&rounds);
   bake->traced = own.traced;
   bake->depth = own.depth;
+  memcpy(bake->photons_lost, own.photons_lost, sizeof bake->photons_lost);
   report->probe_cpu += own.cpu;
   return result;
 }

@@ -8,8 +8,9 @@
 struct probe_bake {
   struct slab *pages; /* owned */
   int count;
-  double traced; /* as in bake_report */
+  double traced; /* these three as in bake_report */
   int depth;
+  char photons_lost[48];
 };
 
 /* Bakes slabs[work->lamp->slab_count] with `samples` of `rays` each in place of the work's own.

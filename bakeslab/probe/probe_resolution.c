@@ -112,7 +112,7 @@ static enum result estimate_pages(const struct bake_work *work, const struct sla
   int pages = work->lamp->slab_count;
   struct effects effects = *work->look.effects;
   struct probe_bake bake = {0};
-  struct slab *geometry = malloc((size_t)pages * sizeof *geometry); /* owns nothing */
+  struct slab *geometry = calloc((size_t)pages, sizeof *geometry); /* owns nothing */
   enum result result = geometry ? RESULT_OK : result_no_memory(error);
   for (int n = 0; n < pages && result == RESULT_OK; ++n) {
     geometry[n] = slabs[n];

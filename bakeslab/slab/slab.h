@@ -61,6 +61,9 @@ size_t slab_sample_count(const struct slab *slab);
 int slab_width(const struct slab *slab);  /* Nu * Ns */
 int slab_height(const struct slab *slab); /* Nv * Nt */
 
+/* Whether any sample differs from 0. */
+bool slab_is_lit(const struct slab *slab);
+
 /* The three floats of one sample. */
 float *slab_at(const struct slab *slab, int i, int j, int k, int l);
 

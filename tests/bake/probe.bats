@@ -74,11 +74,33 @@ near() { awk -v a="$1" -v b="$2" -v p="$3" 'BEGIN { print a, b; exit !(a - b <= 
   [ "$(echo 0 0 0 0 0 1 | "$BAKESLAB" lookup x.exr | awk '{ print ($1 > 0.1) }')" -eq 1 ]
 }
 
-@test "photons that all miss are refused by the probe too" {
+@test "photons that all miss: told, and baked without; refused where caustics are asked for by name" {
   lamp globe.pov 'Canned_Bulb(<0, 0, -2>, 0.2, 5)
     difference { sphere { <0, 0, -2>, 1 } sphere { <0, 0, -2>, 0.9 } pigment { rgbf 1 } interior { ior 1.5 } photons { target refraction on } }
     plane { z, -4 pigment { rgb 0.8 } finish { diffuse 1 } }'
-  refused 1 'globe.pov: caustics: POV-Ray shot [0-9]+ photons' x.tif bake globe.pov -o x.tif --uv 2 --st 4
+  run small globe.pov -q -o x.exr
+  echo "$output"
+  [ "$status" -eq 0 ]
+  [[ $output =~ "globe.pov: warning: goes without caustics: with them POV-Ray shot "[0-9]+" photons" ]]
+  [[ $(effect x.exr caustics) == off:* ]]
+  # An extended source shoots beside its centre; a light_source never does.
+  sed 's/Canned_Bulb.*/light_source { <0, 0, -2> 5 }/' globe.pov >point.pov
+  small point.pov -q -o all.exr --effects all
+  [ "$(effect all.exr caustics)" = off ]
+  refused 1 'globe.pov: caustics: POV-Ray shot [0-9]+ photons' y.tif small globe.pov -o y.tif --effects caustics
+}
+
+@test "photons that matter: tried with twice as many, and what has not converged is told" {
+  # A lens that gathers a bulb's light in a narrow spot.
+  lamp lens.pov 'Canned_Bulb(<0, 0, -4>, 0.2, 50)
+    sphere { <0.01, 0, -7>, 1 pigment { rgbf 1 } interior { ior 1.5 } photons { target refraction on } }
+    plane { z, -9 pigment { rgb 0.8 } finish { diffuse 1 } }'
+  run bake lens.pov -q -o x.exr --uv 2 --st 4 --rays 1 --effect-threshold 0.01
+  echo "$output"
+  [ "$status" -eq 0 ]
+  effect x.exr caustics
+  [[ $(effect x.exr caustics) =~ ^on:.*photons,\ (twice\ as\ many\ would\ change|not\ converged) ]]
+  [[ ! $(effect x.exr caustics) =~ "not converged" || $output =~ "caustics on: "*"not converged" ]]
 }
 
 @test "--window auto keeps the light and drops the dark; a dark page stays as it is" {

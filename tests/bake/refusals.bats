@@ -33,6 +33,42 @@ declared() {
   declared 'The shade is too small' '#error "The shade is too small\n"'
 }
 
+@test "a picture that is missing, beside lines that look like errors: POV-Ray's reason" {
+  flat_lamp broken.pov '#warning "Fatal error in parser: not at all\n"
+box { 0, 1 pigment { image_map { png "nothing.png" } } }'
+  refused 1 "'broken.pov' line 8: Cannot find file 'nothing.png'.*Cannot open file" x.tif bake broken.pov -o x.tif
+  # One that cannot be read is named too.
+  echo none >nothing.png
+  refused 1 "broken.pov.*PNG" x.tif bake broken.pov -o x.tif
+}
+
+@test "a script that includes itself, takes all memory, writes or runs without end" {
+  flat_lamp again.pov '#include "again.pov"'
+  refused 1 "again.pov' line [27]: Parse Error: Too many nested include" x.tif small again.pov -o x.tif
+  flat_lamp endless.pov '#while (1) #end'
+  refused 1 'endless.pov: not done within --timeout 1: interrupted while POV-Ray was trying the script' x.tif \
+    small endless.pov -o x.tif --timeout 1
+  flat_lamp writes.pov "#fopen F \"long.txt\" write
+#declare Line = \"0123456789012345678901234567890123456789012345678901234567890123456789\";
+#for (K, 1, 4) #declare Line = concat(Line, Line, Line, Line); #end
+#while (1) #write (F, Line) #end"
+  (
+    ulimit -f 8192
+    refused 1 'writes.pov: POV-Ray wrote a file of more than 8 MiB' x.tif small writes.pov -o x.tif
+  )
+  [ "$CONFIG" = sanitize ] && skip 'sanitisers need all address space'
+  flat_lamp greedy.pov '#declare Many = array[300000000];'
+  (
+    ulimit -v 1000000
+    refused 1 'greedy.pov: POV-Ray needs more than 0.95 GiB of memory .*line 7' x.tif small greedy.pov -o x.tif
+  )
+}
+
+@test "what a script prints is not kept" {
+  flat_lamp chatty.pov '#for (K, 1, 20000) #debug concat(str(K, 0, 0), " bottles of beer\n") #end'
+  small chatty.pov -q -o x.exr
+}
+
 @test "a script without a slab, without a name, without canned.inc" {
   spoilt 'lamp.pov: declares no slab; .*Canned_Slab' /Canned_Slab/d
   spoilt 'lamp.pov: has no name; .*Canned_Lamp' /Canned_Lamp/d

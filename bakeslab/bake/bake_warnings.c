@@ -1,0 +1,93 @@
+#include "bake/bake_warnings.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/files.h"
+#include "lamp/lamp_dark.h"
+#include "slab/slab_profile.h"
+
+static enum result begin_trial(const struct bake_work *work, struct lamp_trial *trial,
+                               char **scratch, struct error *error) {
+  enum result result = bake_store_scratch(work->store, scratch, error);
+  *trial = (struct lamp_trial){.povray = work->povray,
+                               .source = work->source,
+                               .directory = *scratch,
+                               .effects = work->look.effects,
+                               .stop = work->stop};
+  return result;
+}
+
+static void end_trial(char *scratch) {
+  if (scratch) files_remove_tree(scratch);
+  free(scratch);
+}
+
+enum result bake_warn_of_lamp(const struct bake_work *work, struct warnings *warnings,
+                              struct error *error) {
+  const struct lamp *lamp = work->lamp;
+  struct lamp_trial trial;
+  char *scratch = NULL;
+  double ambient = 0;
+  enum result result = begin_trial(work, &trial, &scratch, error);
+  if (result == RESULT_OK) result = lamp_ambient_part(&trial, lamp, &ambient, error);
+  if (lamp->lights)
+    warnings_add(warnings,
+                 "%d light_source%s besides Canned_Bulb's: a ray cannot hit a point, so %s direct "
+                 "light is not in the slab, only what %s; write Canned_Bulb(centre, radius, "
+                 "radiance) instead, or an object with finish { emission ... }",
+                 lamp->lights, lamp->lights == 1 ? "" : "s", lamp->lights == 1 ? "its" : "their",
+                 lamp->lights == 1 ? "it lights" : "they light");
+  if (lamp_has_light_groups(&trial, lamp))
+    warnings_add(warnings, "light_sources in a light_group, which POV-Ray does not count: their "
+                           "direct light is not in the slab; write Canned_Bulb instead");
+  if (ambient > 0.01)
+    warnings_add(warnings,
+                 "objects glow by ambient (%.3g %% of the light in a trial run with it), which "
+                 "canned.inc switches off: it is not in the slab; write emission where a thing "
+                 "is to glow",
+                 100 * ambient);
+  if (lamp->reads.write[0])
+    warnings_add(warnings,
+                 "the script writes files (%s is the first); with --sandbox it can only do so in a "
+                 "folder that is removed after it",
+                 lamp->reads.write);
+  end_trial(scratch);
+  return result;
+}
+
+enum result bake_warn_of_darkness(const struct bake_work *work, const struct slab *pages,
+                                  struct warnings *warnings, struct error *error) {
+  struct lamp_trial trial;
+  char *scratch = NULL;
+  const char *reason = "";
+  for (int n = 0; n < work->lamp->slab_count; ++n)
+    if (slab_is_lit(&pages[n])) return RESULT_OK;
+  enum result result = begin_trial(work, &trial, &scratch, error);
+  if (result == RESULT_OK) result = lamp_why_dark(&trial, work->lamp, &reason, error);
+  if (result == RESULT_OK) warnings_add(warnings, "gives no light at all: %s", reason);
+  end_trial(scratch);
+  return result;
+}
+
+enum result bake_warn_of_borders(const struct slab *pages, int count, struct warnings *warnings,
+                                 struct error *error) {
+  enum result result = RESULT_OK;
+  char cut_off[256] = "";
+  for (int n = 0; n < count && result == RESULT_OK; ++n) {
+    struct slab_profile profile;
+    result = slab_profile(&pages[n], &profile, error);
+    for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
+      size_t used = strlen(cut_off);
+      if (slab_profile_cut_off(&profile, k / 2, k % 2) > 0)
+        snprintf(cut_off + used, sizeof cut_off - used, "%spage %d %s %c", used ? ", " : "", n + 1,
+                 k % 2 ? "high" : "low", "uvst"[k / 2]);
+    }
+    slab_profile_free(&profile);
+  }
+  if (result == RESULT_OK && cut_off[0])
+    warnings_add(warnings, "light goes on beyond the st window (%s); enlarge it in Canned_Slab",
+                 cut_off);
+  return result;
+}

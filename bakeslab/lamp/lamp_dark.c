@@ -1,0 +1,122 @@
+#include "lamp/lamp_dark.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/files.h"
+
+/* The mean light of the lamp with a change of the scene. */
+static enum result try_change(const struct lamp_trial *trial, const char *change, double *mean,
+                              struct error *error) {
+  struct lamp lamp;
+  enum result result = lamp_try(trial->povray, trial->source, trial->directory, trial->effects,
+                                change, trial->stop, &lamp, error);
+  *mean = lamp.mean;
+  lamp_free(&lamp);
+  return result;
+}
+
+/* ---- Words of the script ---- */
+
+/* The text after a comment or string that starts at `at`, or `at`. */
+static const char *after_quiet(const char *at) {
+  const char *end = at;
+  if (!strncmp(at, "//", 2)) return at + strcspn(at, "\n");
+  if (!strncmp(at, "/*", 2)) return (end = strstr(at + 2, "*/")) ? end + 2 : at + strlen(at);
+  if (*at != '"') return at;
+  for (end = at + 1; *end && *end != '"'; ++end)
+    if (*end == '\\' && end[1]) ++end;
+  return *end ? end + 1 : end;
+}
+
+static size_t word_length(const char *at) {
+  size_t n = 0;
+  while (isalnum((unsigned char)at[n]) || at[n] == '_') ++n;
+  return n;
+}
+
+/* Whether the word has an effect: `ambient 0` has none. */
+static bool means_it(const char *word, const char *after) {
+  if (strcmp(word, "ambient") != 0) return true;
+  after += strspn(after, " \t\r\n");
+  return *after != '0' || after[1] == '.' || isdigit((unsigned char)after[1]);
+}
+
+static bool has_word(const char *text, const char *word) {
+  for (const char *at = text; *at;) {
+    const char *after = after_quiet(at);
+    size_t length = word_length(at);
+    if (after == at && length == strlen(word) && !strncmp(at, word, length) &&
+        means_it(word, at + length))
+      return true;
+    at = after != at ? after : at + (length ? length : 1);
+  }
+  return false;
+}
+
+/* Whether a file that the script reads, canned.inc apart, has the word and means it. */
+static bool mentions(const struct lamp_trial *trial, const struct lamp *lamp, const char *word) {
+  bool found = false;
+  size_t own = strlen(trial->source->include_pov);
+  for (int n = 0; n < lamp->reads.count && !found; ++n) {
+    const char *path = lamp_reads_path(&lamp->reads, n);
+    if (!strncmp(path, trial->source->include_pov, own) && path + own == strrchr(path, '/'))
+      continue;
+    char *text = files_read("", path);
+    found = text && has_word(text, word);
+    free(text);
+  }
+  return found;
+}
+
+bool lamp_has_light_groups(const struct lamp_trial *trial, const struct lamp *lamp) {
+  return mentions(trial, lamp, "light_group");
+}
+
+/* ---- Ambient ---- */
+
+static const char let_glow[] = "global_settings { ambient_light 1 }\n";
+
+enum result lamp_ambient_part(const struct lamp_trial *trial, const struct lamp *lamp, double *part,
+                              struct error *error) {
+  double mean = 0;
+  *part = 0;
+  if (!mentions(trial, lamp, "ambient")) return RESULT_OK;
+  enum result result = try_change(trial, let_glow, &mean, error);
+  if (result == RESULT_OK && mean > 0) *part = fmax(0, 1 - lamp->mean / mean);
+  return result;
+}
+
+/* ---- Darkness ---- */
+
+enum result lamp_why_dark(const struct lamp_trial *trial, const struct lamp *lamp,
+                          const char **reason, struct error *error) {
+  static const struct {
+    const char *change, *reason;
+  } tries[] = {
+      {"#declare Canned_Probe_Turned_ = 1;\n",
+       "there is light on the other side: the normal of Canned_Slab points into the lamp; turn it"},
+      {"#declare Canned_Probe_Wide_ = 1;\n",
+       "all of its light leaves outside the st window; enlarge that in Canned_Slab"},
+      {"#declare Canned_Probe_Inside_ = 1;\n",
+       "there is light inside, but something opaque shuts the aperture; move Canned_Slab to where "
+       "the light leaves, or open the lamp"},
+      {let_glow,
+       "it glows by ambient, which canned.inc switches off; write emission in place of ambient"}};
+  double mean = 0;
+  enum result result = RESULT_OK;
+  size_t n = 0, count = sizeof tries / sizeof *tries;
+  for (; n < count && result == RESULT_OK; ++n) {
+    result = try_change(trial, tries[n].change, &mean, error);
+    if (mean > 0) break;
+  }
+  *reason = n < count      ? tries[n].reason
+            : lamp->lights ? "it is lit by light_sources alone, and shows nothing that they light; "
+                             "write Canned_Bulb"
+            : lamp->bulbs && lamp->peak == 0 ? "its bulbs have radiance 0"
+            : lamp->bulbs ? "neither its bulbs nor what they light can be seen through the slabs"
+                          : "nothing in it glows; add Canned_Bulb, or finish { emission ... }";
+  return result;
+}

@@ -1,0 +1,21 @@
+/* povray_log.h - what POV-Ray's log, the file `log` of a job's folder, says: why it failed, its
+ * counts, how far it is. A log may be of any length: only a line at a time is held. */
+#ifndef POVRAY_LOG_H
+#define POVRAY_LOG_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Why POV-Ray failed, in its own words and as one line: the error of the parser with file and line,
+ * the fatal error with what announced it, or the last thing that it said. Empty where there is
+ * none. */
+void povray_log_reason(const char *directory, char *reason, size_t size);
+
+/* A count from POV-Ray's statistics, such as "Number of photons shot:"; -1 where the log has no
+ * such line. */
+double povray_statistic(const char *directory, const char *label);
+
+/* Part of a running job that is rendered; an `animation` counts frames, a still its pixels. */
+double povray_log_progress(const char *directory, bool animation);
+
+#endif
