@@ -37,7 +37,7 @@ static const float *row_of(const struct picture *picture, int row) {
 static bool is_marker_row(const struct picture *picture, int row) {
   const float *pixel = row_of(picture, row);
   for (int n = 0; n < TRIAL_SIDE; ++n, pixel += 3)
-    if (!(fabs(pixel[1] - TRIAL_MARKER) < 1)) return false; /* haze may dim it a little */
+    if (!(fabs((double)pixel[1] - TRIAL_MARKER) < 1)) return false; /* haze may dim it a little */
   return true;
 }
 
