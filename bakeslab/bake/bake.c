@@ -7,7 +7,7 @@
  * 3. Rounds of batches (bake_rounds.h): each sample is the mean of the radiance over its 4D cell,
  *    by pairs of antithetic rays (Hammersley and Morton 1956) on a Sobol sequence (Joe and Kuo
  *    2008), as many as the tile's noise calls for (Neyman 1934).
- * 4. Samples are the sums over their rays; what they say of the slab, borders that cut light off
+ * 4. Samples are the sums over their rays; what they say of the slab, the balance of its light
  *    and its own error, goes into the report.
  * 5. Write the slab, with its provenance and the lamp's housing, and drop the store.
  *
@@ -164,7 +164,7 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
 
 /* ---- 4. What the samples say ---- */
 
-static enum result assess(const struct bake_work *work, const struct bake_state *state,
+static enum result assess(const struct bake_work *work, struct bake_state *state,
                           struct bake_report *report, struct error *error) {
   const struct slab *pages = state->lamp.slabs;
   enum result result = bake_warn_of_darkness(work, pages, &report->warnings, error);
@@ -180,6 +180,8 @@ static enum result assess(const struct bake_work *work, const struct bake_state 
                                       &accuracy, error);
     if (!(accuracy.all <= report->error)) report->error = accuracy.all;
   }
+  if (result == RESULT_OK)
+    result = bake_energy(work, &state->origin.noise, &state->origin.energy, report, error);
   return result;
 }
 
@@ -246,12 +248,10 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
   for (int n = 0; n < count && result == RESULT_OK; ++n)
     result = slab_json_set(&pages[n], "samples_are",
                            options->centre ? "\"points\"" : "\"cell_means\"", error);
-  /* Twice: the assessment reads the noise there, and its warnings go there. Those of the borders
-   * do not: whoever has the slab sees them. */
+  /* Twice: the assessment reads the noise there, and its warnings go there. */
   if (result == RESULT_OK) result = record(work, state, report, error);
   if (result == RESULT_OK) result = assess(work, state, report, error);
   if (result == RESULT_OK) result = record(work, state, report, error);
-  if (result == RESULT_OK) result = bake_warn_of_borders(pages, count, &report->warnings, error);
   if (result == RESULT_OK) result = be_strict(work, report, error);
   if (result == RESULT_OK)
     result = slab_file_write(options->output, pages, count, options->precision, error);

@@ -1,5 +1,6 @@
 #include "bake/bake_provenance.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "base/version.h"
@@ -45,6 +46,11 @@ enum result bake_provenance(const struct bake_work *work, const struct bake_orig
     json_object_set_new(object, "window", json_string(origin->window.line));
   if (work->options->tolerance > 0)
     json_object_set_new(object, "resolution", json_string(origin->resolution.line));
+  json_object_set_new(object, "energy", json_string(origin->energy.line));
+  if (!isnan(origin->energy.efficiency))
+    json_object_set_new(object, "efficiency", json_real(origin->energy.efficiency));
+  if (!isnan(origin->energy.missed))
+    json_object_set_new(object, "missed", json_real(origin->energy.missed));
   if (warnings->count > 0) json_object_set_new(object, "warnings", warnings_json(warnings));
   if (origin->housing) json_object_set_new(object, "housing", json_string(origin->housing));
   enum result result = json_text(object, mark, JSON_COMPACT, text, error);

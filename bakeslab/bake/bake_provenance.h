@@ -3,6 +3,7 @@
 #ifndef BAKE_PROVENANCE_H
 #define BAKE_PROVENANCE_H
 
+#include "bake/bake_energy.h"
 #include "batch/bake_run.h"
 #include "probe/probe.h"
 #include "probe/probe_resolution.h"
@@ -14,7 +15,8 @@ struct bake_origin {
   struct probe probe;                 /* where probed */
   struct probe_windows window;        /* with options->window_auto */
   struct probe_resolution resolution; /* with options->tolerance */
-  char *housing;                      /* SDL, or NULL */
+  struct bake_energy energy;
+  char *housing; /* SDL, or NULL */
 };
 
 /* The caller frees the text. */

@@ -1,12 +1,9 @@
 #include "bake/bake_warnings.h"
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/files.h"
 #include "lamp/lamp_dark.h"
-#include "slab/slab_profile.h"
 
 static enum result begin_trial(const struct bake_work *work, struct lamp_trial *trial,
                                char **scratch, struct error *error) {
@@ -68,26 +65,5 @@ enum result bake_warn_of_darkness(const struct bake_work *work, const struct sla
   if (result == RESULT_OK) result = lamp_why_dark(&trial, work->lamp, &reason, error);
   if (result == RESULT_OK) warnings_add(warnings, "gives no light at all: %s", reason);
   end_trial(scratch);
-  return result;
-}
-
-enum result bake_warn_of_borders(const struct slab *pages, int count, struct warnings *warnings,
-                                 struct error *error) {
-  enum result result = RESULT_OK;
-  char cut_off[256] = "";
-  for (int n = 0; n < count && result == RESULT_OK; ++n) {
-    struct slab_profile profile;
-    result = slab_profile(&pages[n], &profile, error);
-    for (int k = 2 * SLAB_S; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
-      size_t used = strlen(cut_off);
-      if (slab_profile_cut_off(&profile, k / 2, k % 2) > 0)
-        snprintf(cut_off + used, sizeof cut_off - used, "%spage %d %s %c", used ? ", " : "", n + 1,
-                 k % 2 ? "high" : "low", "uvst"[k / 2]);
-    }
-    slab_profile_free(&profile);
-  }
-  if (result == RESULT_OK && cut_off[0])
-    warnings_add(warnings, "light goes on beyond the st window (%s); enlarge it in Canned_Slab",
-                 cut_off);
   return result;
 }

@@ -14,8 +14,4 @@ enum result bake_warn_of_lamp(const struct bake_work *work, struct warnings *war
 enum result bake_warn_of_darkness(const struct bake_work *work, const struct slab *pages,
                                   struct warnings *warnings, struct error *error);
 
-/* Light goes on beyond a page's st window, as `bakeslab check` sees it too. */
-enum result bake_warn_of_borders(const struct slab *pages, int count, struct warnings *warnings,
-                                 struct error *error);
-
 #endif

@@ -72,11 +72,28 @@ static void print_filter(FILE *out, double gain, const struct slab *slab) {
   fputs("\n  no_shadow no_radiosity no_reflection photons { pass_through } }\n", out);
 }
 
+/* Whether another page in the same plane has a filter that serves this one too. */
+static bool has_wider(const struct slab *slabs, int pages, int page) {
+  const struct slab *slab = &slabs[page];
+  for (int n = 0; n < pages; ++n) {
+    const struct slab *other = &slabs[n];
+    double more[2];
+    if (n == page || memcmp(slab->center, other->center, sizeof slab->center) != 0 ||
+        memcmp(slab->normal, other->normal, sizeof slab->normal) != 0)
+      continue;
+    for (int axis = 0; axis < 2; ++axis)
+      more[axis] = filter_reach(other, axis) - filter_reach(slab, axis);
+    if (more[0] >= 0 && more[1] >= 0 && (more[0] + more[1] > 0 || n > page)) return true;
+  }
+  return false;
+}
+
 static void print_head(FILE *out, const struct bake_look *look, const struct slab *slabs, int pages,
                        const struct povray_job *job) {
   fputs("// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version 3.7;\n",
         out);
   effects_declare(look->effects, out);
+  if (look->dark) fputs("#declare Canned_Bake_Dark = 1;\n", out);
   /* A radiosity pretrace finer than every 16th pixel costs much and changes 0.01 %. */
   if (look->effects->setting[INTERREFLECTION])
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
@@ -84,7 +101,8 @@ static void print_head(FILE *out, const struct bake_look *look, const struct sla
   fputs("#include \"canned_bake.inc\"\n#include \"" LAMP_SCRIPT "\"\nCanned_Neutral()\n", out);
   if (look->gain != 1) {
     fprintf(out, "global_settings { adc_bailout %.17g }\n", fmin(1, look->gain) / 255);
-    for (int page = 0; page < pages; ++page) print_filter(out, look->gain, &slabs[page]);
+    for (int page = 0; page < pages; ++page)
+      if (!has_wider(slabs, pages, page)) print_filter(out, look->gain, &slabs[page]);
   }
 }
 

@@ -14,6 +14,7 @@ struct bake_look {
   enum bake_form form;
   int defect_rows; /* image rows that mesh_camera wastes */
   enum bake_offsets offsets;
+  bool dark;   /* without the bulbs: what else gives light */
   double gain; /* power of two by which the picture is brighter than the lamp */
   const struct effects *effects;
 };

@@ -1,6 +1,6 @@
 /* cmd_check.c - bakeslab check: reads all of a slab; warns where the slab misses light
- * (slab_profile.h), loses it or counts it twice (flux_box.h). --error estimates the slab's own
- * error (slab_accuracy.h). */
+ * (bake_energy.h, slab_missed.h), loses it or counts it twice (flux_box.h). --error estimates the
+ * slab's own error (slab_accuracy.h). */
 #include <math.h>
 #include <stdio.h>
 
@@ -10,7 +10,7 @@
 #include "slab/flux_box.h"
 #include "slab/plane.h"
 #include "slab/slab_accuracy.h"
-#include "slab/slab_profile.h"
+#include "slab/slab_missed.h"
 
 /* The part of the flux that may be lost, or counted twice, without a warning. */
 static const double most_lost = 0.01;
@@ -64,23 +64,6 @@ static void begin_warning(const struct page *page) {
   ++*page->warnings;
   begin_line(page);
   printf("warning: ");
-}
-
-static enum result check_borders(const struct page *page, struct error *error) {
-  struct slab_profile profile;
-  enum result result = slab_profile(&page->slab, &profile, error);
-  for (int k = 0; k < 2 * SLAB_AXES && result == RESULT_OK; ++k) {
-    int axis = k / 2, end = k % 2;
-    double share = slab_profile_cut_off(&profile, axis, end);
-    if (share == 0) continue;
-    begin_warning(page);
-    printf("light is cut off at the %s end of %c (%s): the last samples "
-           "have %.3g %% of the brightest, more than %g %%\n",
-           end ? "high" : "low", "uvst"[axis], axis < SLAB_S ? "uv rectangle" : "st window",
-           100 * share, 100 * slab_profile_limit(axis));
-  }
-  slab_profile_free(&profile);
-  return result;
 }
 
 static enum result check_flux(const struct page *page, struct error *error) {
@@ -150,11 +133,9 @@ static enum result print_accuracy(const struct page *page, struct error *error) 
 
 static enum result check_page(const struct page *page, bool errors, struct error *error) {
   const int *n = page->slab.samples;
-  enum result result = check_borders(page, error);
-  if (result != RESULT_OK) return result;
   begin_line(page);
   printf("valid, %d x %d x %d x %d samples\n", n[0], n[1], n[2], n[3]);
-  result = check_flux(page, error);
+  enum result result = check_flux(page, error);
   if (result == RESULT_OK) result = check_twice(page, error);
   if (result == RESULT_OK && errors) result = print_accuracy(page, error);
   return result;
@@ -179,9 +160,37 @@ static enum result tell_of_bake(const char *path, const struct slab *slab, int *
   return result;
 }
 
+static const struct slab *page_of(const void *file, int page) {
+  return slab_file_page(file, page);
+}
+
+/* What the lamp's pages miss, as far as samples show it: where the bake has not measured and told
+ * it (tell_of_bake). */
+static enum result find_missed(const struct page *page, struct slab_missed *missed,
+                               struct error *error) {
+  json_t *root = NULL;
+  enum result result = slab_json_root(&page->slab, &root, error);
+  bool measured = json_object_get(json_object_get(root, "provenance"), "missed") != NULL;
+  json_decref(root);
+  if (result != RESULT_OK || measured) return result;
+  return slab_missed_add(&page->slab, page->number, slab_file_pages(page->file), page_of,
+                         page->file, missed, error);
+}
+
+/* One line a lamp. */
+static void warn_missed(const char *path, const struct slab_missed *missed, int *warnings) {
+  double all = missed->flux + missed->beyond;
+  if (!*missed->where) return;
+  ++*warnings;
+  printf("%s: warning: light is cut off, some %.2g %% of it beyond the windows: the ends of %s are "
+         "not dark; enlarge window or rectangle there\n",
+         path, all > 0 ? 100 * missed->beyond / all : 0, missed->where);
+}
+
 static enum result check_file(const char *path, bool errors, int *warnings, struct error *error) {
   struct slab_file *file = NULL;
   bool lit = false;
+  struct slab_missed missed = {0};
   enum result result = slab_file_open(path, &file, error);
   for (int n = 0; result == RESULT_OK && n < slab_file_pages(file); ++n) {
     struct page page = {.path = path, .file = file, .number = n, .warnings = warnings};
@@ -189,12 +198,14 @@ static enum result check_file(const char *path, bool errors, int *warnings, stru
     if (result == RESULT_OK && n == 0) result = tell_of_bake(path, &page.slab, warnings, error);
     if (result == RESULT_OK) lit |= slab_is_lit(&page.slab);
     if (result == RESULT_OK) result = check_page(&page, errors, error);
+    if (result == RESULT_OK) result = find_missed(&page, &missed, error);
     slab_free(&page.slab);
   }
   if (result == RESULT_OK && !lit) {
     ++*warnings;
     printf("%s: warning: gives no light at all: every sample is 0\n", path);
   }
+  if (result == RESULT_OK) warn_missed(path, &missed, warnings);
   slab_file_close(file);
   return result;
 }
@@ -203,9 +214,12 @@ static const char doc[] =
     "Validates light slabs: reads every sample and refuses what is malformed. Warns, on "
     "standard output, when a slab misses light, loses it, or counts it twice. A warning is "
     "not an error.\n\n"
-    "A slab misses light where the mean radiance of the last samples of s or t is more than "
-    "2 % of that axis's brightest (enlarge the st window), or of u or v more than 50 % (the "
-    "lamp's opening may be larger than the rectangle). It loses light where the flux at the "
+    "How much light the pages of a lamp miss, since it leaves beyond their st windows or beside "
+    "their rectangles, is measured by the bake; more than 1 % is told, once a lamp. A slab that "
+    "does not say was not baked, or was cropped: there it is guessed from the last samples of s "
+    "or t, where their mean radiance is more than 2 % of that axis's brightest, and told too "
+    "where that of u or v is more than 50 % and no other page goes on there. It loses light where "
+    "the flux at the "
     "aperture differs from the flux on a closed box around it, an aperture's width (the "
     "longer edge) away, by 1 % more than the uncertainty of the latter, a sum over some "
     "10^6 rays. It counts light twice where more than 1 % of the flux of a page leaves "

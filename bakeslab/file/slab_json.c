@@ -262,11 +262,13 @@ enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening 
 /* The entry of "history" that tells how the slab was made before, by its provenance. Where the
  * samples have changed, what is known of them moves there from the `fresh` one. */
 static json_t *history_entry(const json_t *provenance, json_t *fresh, bool changed) {
-  static const char *const kept[] = {"command", "tool"}, *const of_samples[] = {"rays", "noise"};
+  static const char *const kept[] = {"command", "tool"}, *const of_samples[] = {
+                                                             "rays", "noise", "energy",
+                                                             "efficiency", "missed"};
   json_t *entry = json_object();
   for (size_t k = 0; k < 2; ++k)
     json_object_set(entry, kept[k], json_object_get(provenance, kept[k]));
-  for (size_t k = 0; changed && k < 2; ++k) {
+  for (size_t k = 0; changed && k < sizeof of_samples / sizeof *of_samples; ++k) {
     json_object_set(entry, of_samples[k], json_object_get(provenance, of_samples[k]));
     json_object_del(fresh, of_samples[k]);
   }

@@ -42,6 +42,9 @@ struct lamp {
   int lights;              /* light_sources besides theirs, by POV-Ray's own count */
   double peak;             /* brightest radiance of the trial run and the bulbs, any channel */
   double mean;             /* of the radiance that the trial run saw */
+  double bulb_flux[3];     /* of all bulbs, in units of radiance and lamp units squared */
+  double glow_flux[3];     /* the same of Canned_Glow */
+  bool final_window;       /* Canned_Window_Is_Final */
   bool own_radiosity;      /* the script turns radiosity on by itself */
   bool mesh_camera;        /* works */
   bool hazy;               /* fog or media fill all of space */

@@ -39,6 +39,13 @@ static bool read_bulb(const char *value, struct lamp *lamp) {
   return true;
 }
 
+static bool add_flux(const char *value, double flux[3]) {
+  double rgb[3];
+  if (!read_numbers(value, 3, rgb)) return false;
+  for (int c = 0; c < 3; ++c) flux[c] += rgb[c];
+  return true;
+}
+
 /* Keys of the lamp as a whole. */
 static bool read_of_lamp(const char *key, const char *value, struct lamp *lamp,
                          struct slab *common) {
@@ -47,6 +54,9 @@ static bool read_of_lamp(const char *key, const char *value, struct lamp *lamp,
     return read_text(value, common->radiance_unit, sizeof common->radiance_unit);
   if (!strcmp(key, "metres_per_unit")) return read_numbers(value, 1, &common->metres_per_unit);
   if (!strcmp(key, "bulb")) return read_bulb(value, lamp);
+  if (!strcmp(key, "bulb_flux")) return add_flux(value, lamp->bulb_flux);
+  if (!strcmp(key, "glow_flux")) return add_flux(value, lamp->glow_flux);
+  if (!strcmp(key, "final_window")) return lamp->final_window = true;
   if (strcmp(key, "needs") != 0) return false;
   lamp->needs_declared = true;
   return read_text(value, lamp->needs, sizeof lamp->needs);

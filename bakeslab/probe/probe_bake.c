@@ -22,7 +22,7 @@ enum result probe_bake(const struct bake_work *work, const struct slab *slabs,
   for (; bake->count < pages && result == RESULT_OK; ++bake->count) {
     struct slab *page = &bake->pages[bake->count];
     result = slab_copy_geometry(&slabs[bake->count], page, error);
-    memcpy(page->samples, samples, sizeof page->samples);
+    if (samples) memcpy(page->samples, samples, sizeof page->samples);
   }
   small.slabs = bake->pages;
   if (result == RESULT_OK) result = bake_rounds_run(&small, "probe", &rounds, &own, error);

@@ -13,7 +13,7 @@ struct probe_bake {
   char photons_lost[48];
 };
 
-/* Bakes slabs[work->lamp->slab_count] with `samples` of `rays` each in place of the work's own.
+/* Bakes slabs[work->lamp->slab_count] with `samples` (NULL: as many as they say) of `rays` each.
  * Free it with probe_bake_free in any case. */
 enum result probe_bake(const struct bake_work *work, const struct slab *slabs,
                        const struct effects *effects, const int samples[SLAB_AXES], int rays,

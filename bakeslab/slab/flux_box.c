@@ -218,22 +218,40 @@ enum result flux_box_measure(const struct slab *slab, struct flux_box *flux, str
   return RESULT_OK;
 }
 
-/* Whether the ray from the point on leaves through the aperture of `other`, inside its window. A
- * point on that plane, within rounding, counts. */
-static bool leaves_through(const struct slab *other, const double point[3],
-                           const double direction[3]) {
-  double abst[SLAB_AXES], ahead = 0;
-  if (!slab_ray(other, point, direction, abst)) return false;
-  for (int c = 0; c < 3; ++c) ahead += (other->center[c] - point[c]) * other->normal[c];
+bool flux_box_leaves(const struct slab *page, const double point[3], const double direction[3],
+                     double *ahead) {
+  double abst[SLAB_AXES];
+  *ahead = 0;
+  if (!slab_ray(page, point, direction, abst)) return false;
+  for (int c = 0; c < 3; ++c) *ahead += (page->center[c] - point[c]) * page->normal[c];
   for (int k = 0; k < 2; ++k)
-    if (fabs(abst[k]) > plane_edge(other, k) / 2) return false;
-  return ahead >= -1e-9 * plane_width(other) && abst[SLAB_S] >= other->st_window[0] &&
-         abst[SLAB_S] <= other->st_window[1] && abst[SLAB_T] >= other->st_window[2] &&
-         abst[SLAB_T] <= other->st_window[3];
+    if (fabs(abst[k]) > plane_edge(page, k) / 2) return false;
+  return abst[SLAB_S] >= page->st_window[0] && abst[SLAB_S] <= page->st_window[1] &&
+         abst[SLAB_T] >= page->st_window[2] && abst[SLAB_T] <= page->st_window[3];
 }
 
-enum result flux_box_twice(const struct slab *slab, const struct slab *other, double *share,
-                           struct error *error) {
+/* Which pages a ray of page `self` must not leave by later on: of `count`, or one on the side. */
+struct later {
+  const struct slab *pages;
+  int count, self; /* self: -1 where the slab is none of the pages */
+};
+
+/* A point on a page's plane, within rounding, counts, but of two pages in one plane only the
+ * second. */
+static bool leaves_later(const struct later *later, const double point[3],
+                         const double direction[3]) {
+  for (int n = 0; n < later->count; ++n) {
+    const struct slab *page = &later->pages[n];
+    double ahead, least = plane_width(page) * (n > later->self ? -1e-9 : 1e-9);
+    if (n != later->self && flux_box_leaves(page, point, direction, &ahead) && ahead >= least)
+      return true;
+  }
+  return false;
+}
+
+/* The part of the slab's flux, of |radiance|, that leaves once more. */
+static enum result find_share(const struct slab *slab, const struct later *later, double *share,
+                              struct error *error) {
   struct source source;
   enum result result = make_source(slab, &source, error);
   double all = 0, twice = 0;
@@ -256,8 +274,26 @@ enum result flux_box_twice(const struct slab *slab, const struct slab *other, do
     }
     double light = (fabs(rgb[0]) + fabs(rgb[1]) + fabs(rgb[2])) / (square * square);
     all += light;
-    if (light > 0 && leaves_through(other, point, direction)) twice += light;
+    if (light > 0 && leaves_later(later, point, direction)) twice += light;
   }
   *share = all > 0 ? twice / all : 0;
+  return result;
+}
+
+enum result flux_box_twice(const struct slab *slab, const struct slab *other, double *share,
+                           struct error *error) {
+  return find_share(slab, &(struct later){other, 1, -1}, share, error);
+}
+
+enum result flux_box_lamp(const struct slab *pages, int count, double rgb[3], struct error *error) {
+  enum result result = RESULT_OK;
+  rgb[0] = rgb[1] = rgb[2] = 0;
+  for (int n = 0; n < count && result == RESULT_OK; ++n) {
+    double flux[3], twice = 0;
+    result = slab_flux(&pages[n], flux, error);
+    if (result == RESULT_OK && count > 1)
+      result = find_share(&pages[n], &(struct later){pages, count, n}, &twice, error);
+    for (int c = 0; c < 3; ++c) rgb[c] += (1 - twice) * flux[c];
+  }
   return result;
 }

@@ -1,0 +1,32 @@
+/* bake_energy.h - weighs a lamp's light: what its bulbs and glowing things give, what leaves
+ * through its pages, and what these miss.
+ *
+ * After the bake, two small ones more: without bulbs, which shows what else gives light, and around
+ * the pages, which shows what passes beside them or beyond their windows. */
+#ifndef BAKE_ENERGY_H
+#define BAKE_ENERGY_H
+
+#include "batch/bake_run.h"
+
+enum { BAKE_ENERGY_LINE = 256 };
+
+/* Fluxes are r, g, b in units of radiance and lamp units squared. */
+struct bake_energy {
+  double sources[3]; /* of Canned_Bulb's, and of Canned_Glow's */
+  double dark[3];    /* through the pages without the bulbs */
+  double window[3];  /* passes through an aperture beyond its window, and through no page */
+  double beside[3];  /* passes through no aperture */
+  double pages[3];   /* through the pages, each ray once */
+  double efficiency; /* pages over sources, in luminance; NAN: not known */
+  double missed;     /* window and beside, as a part of all light that leaves; in luminance;
+ NAN: not known */
+  char line[BAKE_ENERGY_LINE]; /* all that in words */
+};
+
+/* Weighs the work's finished pages, and warns in the report where the lamp gives more light than
+ * its bulbs, beyond the noise of the bake, or where the pages miss light. */
+enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,
+                        struct bake_energy *energy, struct bake_report *report,
+                        struct error *error);
+
+#endif

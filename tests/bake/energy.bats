@@ -1,0 +1,74 @@
+#!/usr/bin/env bats
+# The balance of a lamp's light: efficiency, what the pages miss, more light than there is.
+bats_require_minimum_version 1.5.0
+load bake
+
+setup() { bake_setup; }
+
+# lamp FILE TEXT: without slabs.
+lamp() { printf '%s\n' '#version 3.7;' '#include "canned.inc"' 'Canned_Lamp("weighed")' "$2" >"$1"; }
+# told FILE KEY: a number of the provenance.
+told() { "$BAKESLAB" info --json "$1" | tr -d ' \n' | sed "s/.*\"$2\":\([-0-9.e]*\).*/\1/"; }
+# near A B PART: two numbers agree.
+near() { awk -v a="$1" -v b="$2" -v p="$3" 'BEGIN { print a, b; exit !(a - b <= p*b && b - a <= p*b) }'; }
+# A cube of six pages, 2 wide, around the origin.
+cube='Canned_Needs("")
+#for (I_, 0, 5)
+  #local N_ = (I_ < 4 ? vrotate(z, 90*I_*y) : (I_ < 5 ? y : -y));
+  #local U_ = (I_ < 4 ? vrotate(2*x, 90*I_*y) : 2*x);
+  Canned_Slab(N_, U_, (I_ < 4 ? 2*y : 2*z), N_, <-W_, W_, -W_, W_>, 0)
+#end'
+
+@test "a bare bulb in a box: all of its light leaves, nothing is missed or told" {
+  lamp bulb.pov "#declare W_ = 2; $cube Canned_Bulb(0, 0.2, <5, 2, 1>)"
+  bake bulb.pov -q -o x.exr --strict --uv 8 --st 32 --rays 16
+  near "$(told x.exr efficiency)" 1 0.02
+  run "$BAKESLAB" check --strict x.exr
+  [ "$status" -eq 0 ]
+}
+
+@test "windows too narrow for a box: one line, with the light that they miss" {
+  # Through a face, seen from its middle, a small bulb shines at slopes up to 1 along u and v.
+  lamp bulb.pov "#declare W_ = 0.7; $cube Canned_Bulb(0, 0.1, 5)"
+  run --separate-stderr bake bulb.pov -q -o x.exr --uv 8 --st 16 --rays 4
+  [ "$status" -eq 0 ]
+  [[ ${#stderr_lines[@]} -eq 1 && $stderr == *"the pages miss "*" % of the light"*"beyond their windows"* ]]
+  # A face sends a sixth of the light; a square of it, seen from the bulb, corner(0.7)/corner(1).
+  local missed
+  missed=$(awk 'function c(a) { return atan2(a*a, sqrt(1 + 2*a*a)) } BEGIN { print 1 - c(0.7)/c(1) }')
+  near "$(told x.exr missed)" "$missed" 0.15
+  run "$BAKESLAB" check x.exr
+  [ "$(grep -c warning <<<"$output")" -eq 1 ]
+}
+
+@test "a glowing disc: Lambert's law says how much a window lets through" {
+  lamp disc.pov 'Canned_Needs("") Canned_Metres_Per_Unit(0.5) Canned_Radiance_Unit("W/(sr m2)")
+    Canned_Slab(0, 2*x, 2*y, z, <-1, 1, -1, 1>, 0)
+    disc { -0.001*z, z, 0.7 pigment { rgb 1 } finish { emission 3 } }'
+  run --separate-stderr bake disc.pov -q -o x.exr --uv 16 --st 16 --rays 4
+  [[ $("$BAKESLAB" info x.exr) == *"energy "*"efficiency not known: nothing in the script tells the flux"* ]]
+  near "$(told x.exr missed)" 0.4459 0.1
+  sed -i '1,/Canned_Needs/s/Canned_Needs("")/& Canned_Glow(pi*0.7*0.7, 3)/' disc.pov
+  bake disc.pov -q -o y.exr --uv 16 --st 16 --rays 4
+  near "$(told y.exr efficiency)" 0.5541 0.02
+  [[ $("$BAKESLAB" info y.exr) == *"of 3.627 W that the sources give, "*" leaves through the pages: efficiency 5"* ]]
+  # A bulb beside it: what glows by itself is told from the bulb's light.
+  sed 's/Canned_Glow([^)]*)/Canned_Bulb(<0.9, 0, -0.1>, 0.05, 5)/' disc.pov >both.pov
+  bake both.pov -q -o z.exr --uv 16 --st 16 --rays 4
+  [[ $("$BAKESLAB" info z.exr) == *"% not of bulbs); efficiency not known: there is more light than Canned_Bulb's"* ]]
+}
+
+@test "photons through a translucent surface: more light than the bulb gives" {
+  lamp opal.pov 'Canned_Slab(4*z, 10*x, 10*y, z, <-4, 4, -4, 4>, 0)
+    Canned_Bulb(0.1*z, 0.2, 100)
+    lathe { linear_spline 21, #for (I_, 0, 20) <I_*0.25, pow(I_*0.25, 2)/5 - 1.3> #end
+      rotate 90*x pigment { rgb 0 } finish { diffuse 0 reflection 0.95 }
+      photons { target reflection on refraction off } }
+    disc { 3.9*z, z, 5 pigment { rgb 1 } finish { diffuse 0.1, 0.8 } }'
+  run --separate-stderr bake opal.pov -q -o x.exr --uv 4 --st 16 --rays 4 --effects caustics
+  echo "$status $stderr"
+  [ "$status" -eq 0 ]
+  [[ $stderr == *"times as much light leaves the lamp as its bulbs give; POV-Ray shows photons"* ]]
+  run --separate-stderr bake opal.pov -q -o y.exr --uv 4 --st 16 --rays 4 --effects caustics --strict
+  [ "$status" -eq 1 ] && [ ! -e y.exr ]
+}
