@@ -35,6 +35,7 @@ Canned_Slab(<0, 0, 0>, Length*x, Width*z, -y, <-2.5, 2.5, -2.5, 2.5>, 0)
     }
   #end
   #local End = (Length/2 - 1)*x;
+  Canned_Glow(2*pi*Tube*2*vlength(End), Radiance)
   cylinder {
     C - End, C + End, Tube
     pigment { rgb 1 } finish { emission rgb Radiance ambient 0 diffuse 0 }

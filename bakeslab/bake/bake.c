@@ -139,7 +139,8 @@ static enum result find_effects(struct bake_work *work, struct bake_state *state
     result = try_lamp(work, state, &state->effects, error);
     if (result == RESULT_OK) result = probe_photons(work, &state->effects, report, error);
   }
-  bool known = automatic && !state->origin.probed && !effects_any(&state->effects);
+  bool known = automatic && !state->origin.probed && !effects_any(&state->effects) &&
+               !state->lamp.lights; /* a light for previews may be left out of bakes */
   return result != RESULT_OK || known ? result : try_lamp(work, state, &state->effects, error);
 }
 

@@ -59,7 +59,9 @@ static const struct argp_option options[] = {
      "direction or position by twice that, in RMS (default 0.01)",
      3},
     {"window", KEY(window_auto), "declared|auto", 0,
-     "auto: fit the st windows to the light, within those that the script declares", 3},
+     "auto: fit the st windows to the light, wider too than the script declares unless it says "
+     "Canned_Window_Is_Final",
+     3},
     {"tolerance", KEY(tolerance), "T", 0,
      "choose the fewest samples for which the error of irradiance is at most T (relative RMS) at "
      "--for-distance and beyond; --uv and --st, where given, stay",

@@ -1,5 +1,6 @@
 /* probe_window.h - fits the st windows to the light, so that no samples are spent where it
- * is black; the declared window is the outer limit. */
+ * is black and none of the light is beyond; the declared window is the outer limit where the script
+ * says Canned_Window_Is_Final. */
 #ifndef PROBE_WINDOW_H
 #define PROBE_WINDOW_H
 
