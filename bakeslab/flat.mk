@@ -48,10 +48,10 @@ $(B)/man/%.5: bakeslab/file/%.5.scd
 
 # Found by the program relative to itself, built or installed alike.
 READS := $(B)/lib/canned/reads.so
-$(READS): bakeslab/preload/reads.c | $(B)/flags
+$(READS): bakeslab/preload/reads.c bakeslab/preload/matt.c bakeslab/preload/matt.h | $(B)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
-	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -fPIC -shared $< -ldl -o $@
+	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -fPIC -shared $(filter %.c,$^) -ldl -o $@
 
 # The only program that loads OpenImageIO.
 IMAGE := $(B)/lib/canned/bakeslab-image

@@ -284,6 +284,7 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   if (result == RESULT_OK) result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   /* A shard leaves the slab to the run without --shard. */
   report->assembled = options->shards == 1;
+  report->highlights = state.lamp.reads.highlights;
   /* Before the slab: with an old rule, make would take the new slab for up to date. */
   if (result == RESULT_OK && report->assembled && options->depend)
     result = lamp_depend(&state.lamp.reads, state.source.path, options->output, options->depend,

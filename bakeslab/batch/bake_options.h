@@ -45,6 +45,7 @@ struct bake_report {
   char photons_lost[48]; /* "POV-Ray shot 5 photons and stored 0" where most light that meets glass
                             is lost; or empty */
   double error;          /* the slab's own, as slab_accuracy.h estimates it; with a tolerance */
+  bool highlights;       /* were left out */
   struct warnings warnings;
 };
 

@@ -121,6 +121,7 @@ static enum result start_batch(struct run *run, struct process *process, size_t 
       text ? bake_store_scratch(work->store, &process->scratch, error) : result_no_memory(error);
   process->job.directory = process->scratch;
   process->job.library = run->library.paths;
+  process->job.environment = lamp_without_highlights;
   if (result == RESULT_OK) result = lamp_source_link(work->source, process->scratch, error);
   if (result == RESULT_OK) result = files_write(process->scratch, "scene.pov", text, error);
   if (result == RESULT_OK) result = povray_start(work->povray, &process->job, &process->pid, error);

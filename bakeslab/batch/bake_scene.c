@@ -90,7 +90,8 @@ static bool has_wider(const struct slab *slabs, int pages, int page) {
 
 static void print_head(FILE *out, const struct bake_look *look, const struct slab *slabs, int pages,
                        const struct povray_job *job) {
-  fputs("// Written by bakeslab: one batch of a bake. Again: povray render.ini\n#version 3.7;\n",
+  fputs("// Written by bakeslab: one batch of a bake. Again: povray render.ini (but with "
+        "highlights)\n#version 3.7;\n",
         out);
   effects_declare(look->effects, out);
   if (look->dark) fputs("#declare Canned_Bake_Dark = 1;\n", out);

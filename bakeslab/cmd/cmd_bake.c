@@ -236,6 +236,8 @@ static void report_done(const struct bake_options *bake, const struct bake_repor
   if (report->assembled && bake->tolerance > 0)
     cli_note("%s: note: the slab's own error is about %.2g (tolerance %g)", bake->output,
              report->error, bake->tolerance);
+  if (report->highlights)
+    cli_note("%s: note: highlights (specular, phong) are no light, and are left out", bake->lamp);
   if (bake->quiet) return;
   if (report->probe_cpu > 0)
     fprintf(stderr, "%s: small bakes before it took %.1f CPU s\n", bake->output, report->probe_cpu);

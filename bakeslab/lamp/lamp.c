@@ -86,7 +86,8 @@ static enum result run_listing(const struct povray *povray, struct povray_job *j
   char *folder = realpath(job->directory, NULL);
   char *list = folder ? files_join(folder, "reads.txt") : NULL;
   static const char preload[] = "./" LAMP_READS;
-  const char *const environment[] = {"LD_PRELOAD", preload, "CANNED_READS", list, NULL};
+  const char *const environment[] = {"LD_PRELOAD", preload, "CANNED_READS", list, "CANNED_MATT",
+                                     "1",          NULL};
   job->environment = environment;
   enum result result = list ? povray_run(povray, job, error) : result_no_memory(error);
   job->environment = NULL;

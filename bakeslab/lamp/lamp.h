@@ -22,6 +22,9 @@ enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24 };
 #define LAMP_SCRIPT "canned-lamp.pov"
 #define LAMP_READS "canned-reads.so"
 
+/* The environment in which POV-Ray sees a script without its highlights. */
+extern const char *const lamp_without_highlights[];
+
 /* Where POV-Ray finds what a script needs. Paths are absolute and owned. */
 struct lamp_source {
   const char *script;                      /* as the user named it, for messages; not owned */

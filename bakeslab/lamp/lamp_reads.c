@@ -90,7 +90,9 @@ enum result lamp_reads_collect(const char *directory, const char *script, const 
   if (!own || (!text && errno == ENOMEM)) result = result_no_memory(error);
   char *rest = text;
   for (char *path; own && result == RESULT_OK && rest && *rest && (path = strsep(&rest, "\n"));)
-    if (*path == '>')
+    if (*path == '*')
+      reads->highlights = true;
+    else if (*path == '>')
       add_written(reads, path + 1, own);
     else if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&
              !has_path(reads, path))

@@ -3,6 +3,8 @@
 #ifndef LAMP_READS_H
 #define LAMP_READS_H
 
+#include <stdbool.h>
+
 #include "base/result.h"
 
 struct lamp_read;
@@ -10,8 +12,9 @@ struct lamp_read;
 struct lamp_reads {
   struct lamp_read *files;
   int count;
-  char key[33];   /* of all files' content, whatever folders they lie in */
-  char write[80]; /* the name of the first file that the script writes, without its folder */
+  bool highlights; /* a script that it includes has `specular` or `phong` */
+  char key[33];    /* of all files' content, whatever folders they lie in */
+  char write[80];  /* the name of the first file that the script writes, without its folder */
 };
 
 /* Reads the list that POV-Ray left in `directory`; files in that folder itself don't

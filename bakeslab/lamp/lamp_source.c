@@ -11,6 +11,9 @@
 #include "base/files.h"
 #include "lamp/lamp.h"
 
+const char *const lamp_without_highlights[] = {"LD_PRELOAD", "./" LAMP_READS, "CANNED_MATT", "1",
+                                               NULL};
+
 enum result lamp_source_open(const char *script, const char *const *libraries,
                              struct lamp_source *source, struct error *error) {
   *source = (struct lamp_source){.script = script};

@@ -28,7 +28,7 @@ struct povray {
   bool sandbox;     /* set by the caller: runs it in one (sandbox.h) */
 };
 
-enum { POVRAY_ENVIRONMENT = 4 };
+enum { POVRAY_ENVIRONMENT = 6 };
 
 struct povray_job {
   const char *directory;

@@ -1,7 +1,8 @@
-/* reads.c - preloaded into POV-Ray while it parses a lamp script: lists every
- * file that it opens, one path a line, in the file that the environment variable
- * CANNED_READS names; those that it may write begin with >. POV-Ray has no option for that, and
- * file names in scripts may be computed, so that the script's text does not show them. */
+/* reads.c - preloaded into POV-Ray. Where the environment variable CANNED_MATT is set, scripts come
+ * without highlights (matt.h). In a trial run it lists every file that POV-Ray opens, one path a
+ * line, in the file that CANNED_READS names; those that it may write begin with >, and a line *
+ * says that a script had highlights. POV-Ray has no option for that, and file names in scripts may
+ * be computed, so that the script's text does not show them. */
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -10,17 +11,32 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "matt.h"
+
+static __thread int busy; /* with a list, which is no file of the script's */
+
+static void note_line(const char *list, const char *mark, const char *path) {
+  busy = 1;
+  int file = open(list, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file >= 0) dprintf(file, "%s%s\n", mark, path);
+  if (file >= 0) close(file);
+  busy = 0;
+}
+
 static void note(const char *path, int written) {
-  static __thread int busy;
   const char *list = getenv("CANNED_READS");
   if (!list || busy) return;
-  busy = 1;
   char *real = realpath(path, NULL);
-  int file = open(list, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (real && file >= 0) dprintf(file, "%s%s\n", written ? ">" : "", real);
-  if (file >= 0) close(file);
+  if (real) note_line(list, written ? ">" : "", real);
   free(real);
-  busy = 0;
+}
+
+static FILE *matt(FILE *file, const char *mode) {
+  const char *list = getenv("CANNED_READS");
+  int found = 0;
+  if (file && mode[0] == 'r' && getenv("CANNED_MATT")) file = matt_script(file, &found);
+  if (found && list) note_line(list, "*", "");
+  return file;
 }
 
 /* The next definition of the function that is being replaced. */
@@ -30,7 +46,7 @@ static void note(const char *path, int written) {
   FILE *name(const char *path, const char *mode) {                                                 \
     FILE *file = NEXT(name)(path, mode);                                                           \
     if (file) note(path, mode[0] != 'r' || strchr(mode, '+'));                                     \
-    return file;                                                                                   \
+    return matt(file, mode);                                                                       \
   }
 
 #define OPEN(name)                                                                                 \

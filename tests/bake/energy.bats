@@ -72,3 +72,22 @@ cube='Canned_Needs("")
   run --separate-stderr bake opal.pov -q -o y.exr --uv 4 --st 16 --rays 4 --effects caustics --strict
   [ "$status" -eq 1 ] && [ ! -e y.exr ]
 }
+
+@test "highlights are left out, and nothing else" {
+  shiny() {
+    lamp "$1.pov" "Canned_Needs(\"\") Canned_Slab(<0, 0, 0>, 2*x, 2*y, z, <-1, 1, -1, 1>, 0)
+      Canned_Bulb(-1*z, 0.1, 5)
+      #declare Shiny_ = finish { diffuse 0.5 $2 /* } */ } // finish {
+      #declare Name_ = \"finish { specular 1\";
+      #macro Half_() finish { diffuse 0.3 #end
+      sphere { <0.5, 0, -2>, 0.6 pigment { rgb 1 } finish { Shiny_ } }
+      box { <-1, -1, -3>, <1, 1, -2.9> pigment { rgb 0.7 } finish { diffuse 0.4 #ifdef (Name_) $2 #end } }
+      sphere { <-0.5, 0, -2>, 0.4 pigment { rgb 1 } Half_() } }"
+    bake "$1.pov" -o "$1.exr" --uv 4 --st 16 --rays 4 2>"$1.txt"
+  }
+  shiny bright 'specular 0.5 roughness 0.1'
+  shiny dull ''
+  grep -q 'bright.pov: note: highlights (specular, phong) are no light, and are left out' bright.txt
+  run -1 grep 'note: highlights' dull.txt
+  same bright.exr dull.exr
+}

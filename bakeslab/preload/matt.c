@@ -1,0 +1,121 @@
+/* matt.c - see matt.h. Lines stay as they are, for POV-Ray's messages. A finish that #macro, #if or
+ * their like cut in two is left alone. */
+#include "matt.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+enum { MOST_TEXT = 1 << 26 };
+static const char addition[] = " specular 0 phong 0 ";
+
+/* The end of a comment or a string that begins at `at`, or `at`. */
+static const char *skip_inert(const char *at) {
+  int depth = 0;
+  if (*at == '"') {
+    for (++at; *at && *at != '"'; ++at)
+      if (*at == '\\' && at[1]) ++at;
+    return *at ? at + 1 : at;
+  }
+  if (at[0] == '/' && at[1] == '/') return at + strcspn(at, "\n");
+  if (at[0] != '/' || at[1] != '*') return at;
+  do {
+    int opens = at[0] == '/' && at[1] == '*', closes = at[0] == '*' && at[1] == '/';
+    depth += opens - closes;
+    at += opens || closes ? 2 : 1;
+  } while (depth > 0 && *at);
+  return at;
+}
+
+static size_t word_length(const char *at) {
+  size_t n = 0;
+  while (isalnum((unsigned char)at[n]) || at[n] == '_') ++n;
+  return n;
+}
+
+static int is_one_of(const char *word, size_t length, const char *const *list) {
+  for (; *list; ++list)
+    if (strlen(*list) == length && !strncmp(word, *list, length)) return 1;
+  return 0;
+}
+
+static int is_zero(const char *at) {
+  char *end;
+  return strtod(at, &end) == 0 && end != at;
+}
+
+/* The brace that closes the one at `open`, or NULL. */
+static const char *closing_brace(const char *open, int *found) {
+  static const char *const begin[] = {"if",  "ifdef",  "ifndef", "while",
+                                      "for", "switch", "macro",  0},
+                           *const end[] = {"end", 0}, *const shiny[] = {"specular", "phong", 0};
+  int depth = 0, blocks = 0, highlights = 0;
+  for (const char *at = open; *at;) {
+    const char *rest = skip_inert(at);
+    if (rest != at) {
+      at = rest;
+      continue;
+    }
+    depth += (*at == '{') - (*at == '}');
+    if (depth == 0 && blocks == 0) *found |= highlights;
+    if (depth == 0) return blocks == 0 ? at : NULL;
+    int directive = *at == '#';
+    if (directive) at += 1 + strspn(at + 1, " \t");
+    size_t length = word_length(at);
+    if (directive) blocks += is_one_of(at, length, begin) - is_one_of(at, length, end);
+    if (!directive && is_one_of(at, length, shiny)) highlights |= !is_zero(at + length);
+    at += length ? length : !directive;
+  }
+  return NULL;
+}
+
+/* Writes the script to `out`. */
+static void rewrite(const char *text, FILE *out, int *found) {
+  const char *written = text, *at = text;
+  while (*at) {
+    const char *rest = skip_inert(at);
+    size_t length = word_length(at);
+    if (rest != at || length == 0) {
+      at = rest != at ? rest : at + 1;
+      continue;
+    }
+    int finish = length == 6 && !strncmp(at, "finish", length);
+    at += length;
+    if (!finish) continue;
+    const char *open = at + strspn(at, " \t\r\n");
+    const char *close = *open == '{' ? closing_brace(open, found) : NULL;
+    if (!close) continue;
+    fwrite(written, 1, (size_t)(close - written), out);
+    fputs(addition, out);
+    written = at = close;
+  }
+  fputs(written, out);
+}
+
+FILE *matt_script(FILE *file, int *found) {
+  FILE *out = NULL;
+  char *text = NULL;
+  long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+  rewind(file);
+  if (size <= 0 || size > MOST_TEXT || !(text = malloc((size_t)size + 1))) goto end;
+  size_t length = fread(text, 1, (size_t)size, file);
+  text[length] = 0;
+  rewind(file);
+  if (strlen(text) != length || !strstr(text, "finish")) goto end;
+  int memory = memfd_create("script", MFD_CLOEXEC);
+  out = memory >= 0 ? fdopen(memory, "w+") : NULL;
+  if (!out) goto end;
+  rewrite(text, out, found);
+  if (fflush(out) == 0 && !ferror(out)) {
+    rewind(out);
+    fclose(file);
+    file = out;
+  } else {
+    fclose(out);
+  }
+end:
+  free(text);
+  return file;
+}
