@@ -23,9 +23,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bake/bake_estimate.h"
 #include "bake/bake_provenance.h"
 #include "bake/bake_warnings.h"
 #include "base/files.h"
+#include "base/sdl.h"
 #include "batch/bake_rounds.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
@@ -147,7 +149,11 @@ static enum result find_effects(struct bake_work *work, struct bake_state *state
 static enum result prepare(struct bake_work *work, struct bake_state *state,
                            struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
+  char name[SDL_IDENTIFIER_SIZE];
   enum result result = find_effects(work, state, report, error);
+  if (result == RESULT_OK) /* an include bears it */
+    result = result_at(sdl_capitalise(work->slabs[0].name, name, error), error, "%s: Canned_Lamp",
+                       options->lamp);
   if (result == RESULT_OK) result = bake_warn_of_lamp(work, &report->warnings, error);
   if (result == RESULT_OK && options->depend)
     result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
@@ -161,6 +167,26 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
                        : work->effort.adaptive ? BAKE_OWN
                                                : BAKE_SHARED;
   return result;
+}
+
+/* What it is going to cost: only for people who wait for it. */
+static enum result announce(const struct bake_work *work, const struct bake_state *state,
+                            struct bake_report *report, struct error *error) {
+  const struct bake_options *options = work->options;
+  const char *why =
+      options->tolerance > 0 ? state->origin.resolution.line : "as asked for or usual";
+  char line[BAKE_ESTIMATE_LINE];
+  struct bake_estimate estimate;
+  if (!options->tell_plan) return RESULT_OK;
+  enum result result = bake_estimate(work, &estimate, report, error);
+  if (result != RESULT_OK) return result;
+  bake_estimate_say(work, &estimate, why, line);
+  options->tell_plan(line);
+  if (estimate.seconds > 3600 && options->ask && !options->dry_run)
+    return result_fail(error, RESULT_BAD,
+                       "%s: the bake may take more than an hour; say --yes to begin it",
+                       options->lamp);
+  return RESULT_OK;
 }
 
 /* ---- 4. What the samples say ---- */
@@ -281,9 +307,11 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
     result = bake_store_open(options->output, options->shards > 1, &state.store, error);
   if (result == RESULT_OK) result = prepare(&work, &state, report, error);
   if (result == RESULT_OK) result = be_strict(&work, report, error);
-  if (result == RESULT_OK) result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
+  if (result == RESULT_OK) result = announce(&work, &state, report, error);
+  if (result == RESULT_OK && !options->dry_run)
+    result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   /* A shard leaves the slab to the run without --shard. */
-  report->assembled = options->shards == 1;
+  report->assembled = options->shards == 1 && !options->dry_run;
   report->highlights = state.lamp.reads.highlights;
   /* Before the slab: with an old rule, make would take the new slab for up to date. */
   if (result == RESULT_OK && report->assembled && options->depend)

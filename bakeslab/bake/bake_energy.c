@@ -304,6 +304,7 @@ enum result bake_energy(const struct bake_work *work, const struct bake_noise *n
   const char *why = unknown(work, energy);
   if (!why) energy->efficiency = luminance(energy->pages) / luminance(energy->sources);
   say(work, why, flux_noise, energy);
+  memcpy(report->energy, energy->line, sizeof energy->line);
   warn(work, energy, !why, flux_noise, &report->warnings);
   return RESULT_OK;
 }

@@ -31,8 +31,11 @@ struct bake_options {
   bool quiet;
   void (*warn)(const char *line); /* told each warning at once; NULL: nobody */
   bool strict;                    /* a warning is a failure */
-  const char *depend;  /* a rule for make goes there before the slab is written, or NULL */
-  const char *command; /* for the provenance */
+  const char *depend; /* a rule for make goes there before the slab is written, or NULL */
+  void (*tell_plan)(const char *line); /* of what it is going to be, before it begins; or NULL */
+  bool dry_run;                        /* ends there */
+  bool ask;                            /* refuses more than an hour */
+  const char *command;                 /* for the provenance */
 };
 
 struct bake_report {
@@ -45,6 +48,7 @@ struct bake_report {
   char photons_lost[48]; /* "POV-Ray shot 5 photons and stored 0" where most light that meets glass
                             is lost; or empty */
   double error;          /* the slab's own, as slab_accuracy.h estimates it; with a tolerance */
+  char energy[256];      /* the balance of its light, in words */
   bool highlights;       /* were left out */
   struct warnings warnings;
 };

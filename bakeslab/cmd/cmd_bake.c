@@ -24,6 +24,10 @@ static void warn(const char *line) {
   cli_complain("%s: warning: %s", lamp, line);
 }
 
+static void tell_plan(const char *line) {
+  cli_note("%s: plan: %s", lamp, line);
+}
+
 struct arguments {
   struct bake_options bake;
   double timeout; /* seconds; 0: none */
@@ -88,6 +92,11 @@ static const struct argp_option options[] = {
      "run POV-Ray in a sandbox (bubblewrap): it can read files, but write only to its working "
      "folder, and has no network",
      4},
+    {"dry-run", KEY(dry_run), 0, 0,
+     "tell samples, rays, and estimates of time, memory and file size, and stop there. Small bakes "
+     "that this takes stay in SLAB.partial for the bake itself",
+     4},
+    {"yes", KEY(ask), 0, 0, "begin a bake of more than an hour on a terminal too", 4},
     {"strict", KEY(strict), 0, 0,
      "take a warning for a failure: no slab is written, and the exit status is 1. What is baked "
      "stays in SLAB.partial; without --strict the same command writes the slab from there",
@@ -167,6 +176,7 @@ static const struct value values[] = {
     {'j', VALUE_WHOLE, BAKE(jobs), 1, 1024},
     {KEY(povray), VALUE_TEXT, BAKE(povray), 0, 0},
     {KEY(sandbox), VALUE_FLAG, BAKE(sandbox), 0, 0},
+    {KEY(dry_run), VALUE_FLAG, BAKE(dry_run), 0, 0},
     {KEY(strict), VALUE_FLAG, BAKE(strict), 0, 0},
     {VALUE_KEY(struct arguments, timeout), VALUE_POSITIVE, offsetof(struct arguments, timeout), 0,
      0},
@@ -179,6 +189,9 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   switch (key) {
   case KEY(gain):
     bake->gain = parse_gain(state, text);
+    return 0;
+  case KEY(ask):
+    bake->ask = false;
     return 0;
   case KEY(shard):
     parse_shard(state, text, bake);
@@ -238,7 +251,8 @@ static void report_done(const struct bake_options *bake, const struct bake_repor
              report->error, bake->tolerance);
   if (report->highlights)
     cli_note("%s: note: highlights (specular, phong) are no light, and are left out", bake->lamp);
-  if (bake->quiet) return;
+  if (report->assembled) cli_note("%s: note: %s", bake->output, report->energy);
+  if (bake->quiet || bake->dry_run) return;
   if (report->probe_cpu > 0)
     fprintf(stderr, "%s: small bakes before it took %.1f CPU s\n", bake->output, report->probe_cpu);
   if (report->assembled)
@@ -273,6 +287,7 @@ int cmd_bake(int argc, char **argv) {
                                          .jobs = processors > 0 ? (int)processors : 1,
                                          .shards = 1,
                                          .warn = warn,
+                                         .ask = isatty(STDERR_FILENO) != 0,
                                          .command = cli_command_line()}};
   struct bake_options *bake_options = &arguments.bake;
   static const struct argp argp = {options, parse_option, usage, doc, cli_options, NULL, NULL};
@@ -280,6 +295,8 @@ int cmd_bake(int argc, char **argv) {
   bake_options->libraries = arguments.libraries;
   bake_options->quiet = cli_quiet();
   lamp = bake_options->lamp;
+  if (bake_options->dry_run || (isatty(STDERR_FILENO) && !cli_quiet()))
+    bake_options->tell_plan = tell_plan;
   if (!check_rays(bake_options)) return CLI_USAGE;
   set_sizes(bake_options);
   set_signals(arguments.timeout);

@@ -91,3 +91,11 @@ cube='Canned_Needs("")
   run -1 grep 'note: highlights' dull.txt
   same bright.exr dull.exr
 }
+
+@test "the plan first: --dry-run tells and stops; a name that no include can bear is refused" {
+  run -0 --separate-stderr bake flat.pov -o x.tif --uv 4x5 --st 6 --rays 8 --dry-run
+  [[ $stderr == *"flat.pov: plan: 1 page of 4 x 5 x 6 x 6 samples"*"; 5.76e+03 rays; time some "*" s with "*" jobs, memory "*" MB, file "*" MB" ]]
+  [ ! -e x.tif ]
+  sed 's/"flat"/"7 flat"/' flat.pov >name.pov
+  refused 1 'name.pov: Canned_Lamp: ' x.exr bake name.pov -o x.exr --uv 2 --st 4
+}
