@@ -157,6 +157,9 @@ static void tell_usage_error(void) {
 static error_t parse_common(int key, char *argument, struct argp_state *state) {
   (void)argument;
   switch (key) {
+  case 'h':
+    argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
+    return 0;
   case 'q':
     quiet = true;
     return 0;
@@ -173,7 +176,9 @@ static error_t parse_common(int key, char *argument, struct argp_state *state) {
 }
 
 static const struct argp_option common_options[] = {
-    {"quiet", 'q', NULL, 0, "No notes and no progress on stderr; errors are still told", 0}, {0}};
+    {"quiet", 'q', NULL, 0, "No notes and no progress on stderr; errors are still told", 0},
+    {NULL, 'h', NULL, 0, "The same as --help", -1},
+    {0}};
 const struct argp cli_argp = {.options = common_options, .parser = parse_common};
 const struct argp_child cli_options[] = {{&cli_argp, 0, NULL, 0}, {0}};
 
@@ -195,7 +200,7 @@ static void print_help(const struct cli_program *program) {
     printf("  %-12s%s\n", command->name, command->help);
   printf("  help        this text, or `%s help COMMAND` for one command\n"
          "\n"
-         "  --help, --version\n"
+         "  -h, --help, --version\n"
          "  @FILE       further arguments, read from FILE: words as in a shell\n"
          "\n",
          program->name);
@@ -240,7 +245,8 @@ static int dispatch(const struct cli_program *program, int argc, char **argv) {
     char *help_argv[] = {argv[0], option, NULL};
     return run_command(program, argv[2], 2, help_argv);
   }
-  if (!strcmp(word, "help") || !strcmp(word, "--help") || !strcmp(word, "-?"))
+  if (!strcmp(word, "help") || !strcmp(word, "--help") || !strcmp(word, "-h") ||
+      !strcmp(word, "-?"))
     print_help(program);
   else if (!strcmp(word, "--version") || !strcmp(word, "-V"))
     puts(argp_program_version);

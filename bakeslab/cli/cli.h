@@ -52,7 +52,7 @@ int cli_close_stdout(void);
 /* The end of a command: prints the error of a failure, closes stdout, returns the exit status. */
 int cli_end(enum result result, const struct error *error);
 
-/* For the `children` of every command's argp: the option -q, and that argp_error() and
+/* For the `children` of every command's argp: the options -q and -h, and that argp_error() and
  * unknown options make one line and exit status 2. argp_usage() would print many lines:
  * say by argp_error() what is missing. */
 extern const struct argp cli_argp;

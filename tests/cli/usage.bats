@@ -40,6 +40,16 @@ load ../testing
   done
 }
 
+@test "-h is short for --help, of programs and commands" {
+  for program in "$BAKESLAB" "$RENDERSLAB"; do
+    diff <("$program" -h) <("$program" --help)
+    for command in $("$program" --help | sed -n 's/^  \([a-z]\{1,\}\)  .*/\1/p' | grep -vx help); do
+      "$program" "$command" -h >short
+      "$program" "$command" --help | cmp - short
+    done
+  done
+}
+
 @test "bakeslab does not load renderslab's libraries" {
   needs ldd
   for library in embree assimp png; do
