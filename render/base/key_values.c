@@ -26,6 +26,15 @@ static enum result unknown(const char *what, const char *word, int length,
   return result_fail(error, RESULT_BAD, "%s: '%.*s' is none of%s", what, length, word, known);
 }
 
+/* The numbers of the word that ends there. */
+static bool read_numbers(const struct key_value *key, const char *word, const char *end) {
+  const char *numbers = word + key_values_key(word);
+  if (numbers_read(numbers, ',', key->count, key->numbers) == end) return true;
+  if (!key->colour || numbers_read(numbers, ',', 1, key->numbers) != end) return false;
+  key->numbers[1] = key->numbers[2] = key->numbers[0];
+  return true;
+}
+
 enum result key_values_parse(const char *what, const char *text, struct key_value *keys, int count,
                              struct error *error) {
   for (const char *word = text + strspn(text, NUMBERS_BLANKS); *word;) {
@@ -33,8 +42,7 @@ enum result key_values_parse(const char *what, const char *text, struct key_valu
     struct key_value *key = find(keys, count, word);
     if (!key) return unknown(what, word, length, keys, count, error);
     if (key->seen) return result_fail(error, RESULT_BAD, "%s: %s is there twice", what, key->form);
-    const char *end = numbers_read(word + key_values_key(word), ',', key->count, key->numbers);
-    if (end != word + length)
+    if (!read_numbers(key, word, word + length))
       return result_fail(error, RESULT_BAD, "%s: '%.*s' is not %s with finite numbers", what,
                          length, word, key->form);
     key->seen = true;

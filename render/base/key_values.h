@@ -9,9 +9,10 @@
 
 struct key_value {
   const char *form; /* KEY=..., as users are told */
-  int count;
+  int count;        /* of numbers */
   double *numbers;
-  bool seen; /* set by key_values_parse */
+  bool seen;   /* set by key_values_parse */
+  bool colour; /* one number stands for all three */
 };
 
 /* The length of KEY= at the start of the text; 0: there is none. */

@@ -100,8 +100,8 @@ struct look {
 
 static void add(const struct look *look, const double irradiance[3], const double gloss[3]) {
   for (int c = 0; c < 3; ++c) {
-    look->gathered->irradiance[c] += look->light->gain * irradiance[c];
-    look->gathered->gloss[c] += look->light->gain * gloss[c];
+    look->gathered->irradiance[c] += look->light->gain[c] * irradiance[c];
+    look->gathered->gloss[c] += look->light->gain[c] * gloss[c];
   }
 }
 

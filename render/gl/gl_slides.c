@@ -95,18 +95,19 @@ static void place(const struct candidate *views, int groups, int layers, struct 
 }
 
 /* One view, four floats a sample. */
-static void copy_view(const struct slab *slab, const struct candidate *view, double scale,
+static void copy_view(const struct slab *slab, const struct candidate *view, const double factor[3],
                       float *pixels) {
   for (int l = 0; l < slab->samples[SLAB_T]; ++l)
     for (int k = 0; k < slab->samples[SLAB_S]; ++k, pixels += 4) {
       const float *sample = slab_at(slab, view->i, view->j, k, l);
-      for (int c = 0; c < 3; ++c) pixels[c] = (float)((double)sample[c] * scale);
+      for (int c = 0; c < 3; ++c) pixels[c] = (float)((double)sample[c] * factor[c]);
       pixels[3] = 1;
     }
 }
 
-static enum result make_array(const struct slab *slab, const struct candidate *views, double scale,
-                              float *pixels, struct gl_slides_array *array, struct error *error) {
+static enum result make_array(const struct slab *slab, const struct candidate *views,
+                              const double factor[3], float *pixels, struct gl_slides_array *array,
+                              struct error *error) {
   int width = slab->samples[SLAB_S], height = slab->samples[SLAB_T];
   array->texture = gl_texture(GL_TEXTURE_2D_ARRAY, GL_LINEAR);
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, width, height, array->count);
@@ -114,7 +115,7 @@ static enum result make_array(const struct slab *slab, const struct candidate *v
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   enum result result = gl_check("the lamps", error);
   for (int k = 0; k < array->count && result == RESULT_OK; ++k) {
-    copy_view(slab, &views[array->first + k], scale, pixels);
+    copy_view(slab, &views[array->first + k], factor, pixels);
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, k, width, height, 1, GL_RGBA, GL_FLOAT, pixels);
   }
   return result == RESULT_OK ? gl_check("the lamps", error) : result;
@@ -150,18 +151,20 @@ static enum result upload(const struct candidate *views, int layers, struct gl_s
                           struct error *error) {
   const struct slab *slab = &slides->page->slab;
   size_t samples = (size_t)slab->samples[SLAB_S] * (size_t)slab->samples[SLAB_T];
-  double scale = find_scale(slab);
+  double scale = find_scale(slab), gain = 0, factor[3];
+  for (int c = 0; c < 3; ++c) gain = fmax(gain, fabs(slides->gain[c]));
+  for (int c = 0; c < 3; ++c) factor[c] = gain > 0 ? slides->gain[c] / gain / scale : 0;
   float *pixels = calloc(samples, 4 * sizeof *pixels);
   slides->arrays = (slides->count + layers - 1) / layers;
   slides->array = calloc((size_t)slides->arrays + 1, sizeof *slides->array);
-  slides->scale *= scale;
+  slides->scale = gain * scale;
   enum result result = RESULT_OK;
   if (!pixels || !slides->array) result = result_no_memory(error);
   for (int k = 0; k < slides->arrays && result == RESULT_OK; ++k) {
     struct gl_slides_array *array = &slides->array[k];
     array->first = k * layers;
     array->count = slides->count - array->first < layers ? slides->count - array->first : layers;
-    result = make_array(slab, views, 1 / scale, pixels, array, error);
+    result = make_array(slab, views, factor, pixels, array, error);
   }
   free(pixels);
   if (result == RESULT_OK)

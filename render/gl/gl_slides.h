@@ -19,6 +19,7 @@ struct gl_slides_array {
 
 struct gl_slides {
   const struct light_page *page;
+  double gain[3];   /* of the light */
   double scale;     /* radiance = scale x what the slides hold */
   double center[3]; /* of the page, relative to the origin */
   int count;        /* views that are not black */
@@ -34,11 +35,10 @@ struct gl_slides {
   bool *drawn; /* [groups]: is the map drawn, where maps are kept; false at first */
 };
 
-/* `page`, which outlives the slides, and the light's gain as `scale` are set beforehand, all else
- * is zeroed. `origin` is subtracted from
- * positions, so that they keep their digits in single precision; sides of apertures and
- * distances from the origin beyond 1e-15 and 1e15 are refused. groups: 0: each view.
- * together: the views of a group follow each other. */
+/* `page`, which outlives the slides, and `gain` are set beforehand, all else is zeroed. `origin` is
+ * subtracted from positions, so that they keep their digits in single precision; sides of apertures
+ * and distances from the origin beyond 1e-15 and 1e15 are refused. groups: 0: each view. together:
+ * the views of a group follow each other. */
 enum result gl_slides_create(struct gl_slides *slides, const double origin[3], int groups,
                              bool together, const struct gl_limits *limits, struct error *error);
 void gl_slides_free(struct gl_slides *slides); /* zeroed slides allowed */

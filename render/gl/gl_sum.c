@@ -38,8 +38,9 @@ static int64_t choose_pages(struct gl_sum *sum) {
       const struct light_page *page = choose_level(settings, whole, sum->pages);
       groups +=
           (int64_t)count_groups(settings, &page->axes[0]) * count_groups(settings, &page->axes[1]);
-      sum->slides[sum->pages++] =
-          (struct gl_slides){.page = page, .scale = settings->lights[l].gain};
+      struct gl_slides *slides = &sum->slides[sum->pages++];
+      *slides = (struct gl_slides){.page = page};
+      memcpy(slides->gain, settings->lights[l].gain, sizeof slides->gain);
       for (int c = 0; c < 3; ++c) sum->origin[c] += (page->center[c] - sum->origin[c]) / sum->pages;
     }
   return groups;

@@ -95,7 +95,7 @@ static enum result place(const char *text, const struct light_text *where, struc
   for (int row = 0; row < 3; ++row)
     for (int c = 0; c < 3; ++c) light->matrix[row][c] *= where->scale;
   light->scale = scale * where->scale;
-  light->gain = where->gain;
+  memcpy(light->gain, where->gain, sizeof light->gain);
   return result;
 }
 
@@ -245,7 +245,7 @@ static void add_radiance(const struct light *light, const struct light_page *pag
     st[axis] =
         vector_dot(direction, page->frame[axis]) / along + page->axes[axis].kappa * point[axis];
   slab_lookup(&page->slab, point[0] / light->scale, point[1] / light->scale, st[0], st[1], seen);
-  for (int c = 0; c < 3; ++c) rgb[c] += light->gain * seen[c];
+  for (int c = 0; c < 3; ++c) rgb[c] += light->gain[c] * seen[c];
 }
 
 double light_seen(const struct light *lights, int count, const double origin[3],

@@ -1,7 +1,7 @@
 /* light.h - a canned light in a scene: its slabs, and where they are.
  *
  * `LIGHT` of the command line: FILE [at=X,Y,Z] [toward=X,Y,Z] [up=X,Y,Z] [matrix=12 numbers]
- * [scale=S] [gain=G]. The lamp's point p goes to at + scale R p, where R turns the first
+ * [scale=S] [gain=G or R,G,B]. The lamp's point p goes to at + scale R p, where R turns the first
  * page's normal to toward - at and its v towards up as nearly as it can; `matrix` is in
  * POV-Ray's order and excludes at, toward and up. Scaling keeps radiance; gain multiplies it.
  *
@@ -40,7 +40,7 @@ struct light {
   char *path; /* of the slab; owned */
   int count;
   struct light_page *pages; /* owned */
-  double gain;
+  double gain[3];
   double scale;
   double matrix[4][3]; /* lamp to scene, POV-Ray's order: images of x, y, z; translation */
 };

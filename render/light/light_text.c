@@ -26,11 +26,13 @@ static enum result check(const char *what, const struct light_text *light, struc
 }
 
 enum result light_text_parse(const char *text, struct light_text *light, struct error *error) {
-  *light = (struct light_text){.scale = 1, .gain = 1, .up = {0, 1, 0}};
-  struct key_value keys[] = {
-      {"at=X,Y,Z", 3, light->at, false},    {"toward=X,Y,Z", 3, light->toward, false},
-      {"up=X,Y,Z", 3, light->up, false},    {"matrix=12 numbers", 12, light->matrix[0], false},
-      {"scale=S", 1, &light->scale, false}, {"gain=G", 1, &light->gain, false}};
+  *light = (struct light_text){.scale = 1, .gain = {1, 1, 1}, .up = {0, 1, 0}};
+  struct key_value keys[] = {{"at=X,Y,Z", 3, light->at, false, false},
+                             {"toward=X,Y,Z", 3, light->toward, false, false},
+                             {"up=X,Y,Z", 3, light->up, false, false},
+                             {"matrix=12 numbers", 12, light->matrix[0], false, false},
+                             {"scale=S", 1, &light->scale, false, false},
+                             {"gain=G|R,G,B", 3, light->gain, false, true}};
   char what[256];
   snprintf(what, sizeof what, "--light %s", text);
   text += strspn(text, NUMBERS_BLANKS);

@@ -10,7 +10,7 @@ struct light_text {
   char *path; /* owned */
   double at[3], toward[3], up[3];
   double matrix[4][3];
-  double scale, gain;
+  double scale, gain[3];
   bool has_at, has_toward, has_up, has_matrix;
 };
 

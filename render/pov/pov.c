@@ -203,7 +203,13 @@ static void print_includes(const struct pov_includes *includes, FILE *out) {
 /* The scale is the macro's argument: POV-Ray's `scale` leaves a light's brightness alone. */
 static void print_light(const struct light *light, const char *name, FILE *out) {
   double scale = vector_length(light->matrix[0]);
-  fprintf(out, "object { %s_Canned(%.15g, %.15g)\n  matrix <", name, scale, light->gain);
+  const double *gain = light->gain;
+  fprintf(out, "object { %s_Canned(%.15g, ", name, scale);
+  if (gain[0] == gain[1] && gain[0] == gain[2])
+    fprintf(out, "%.15g", gain[0]);
+  else
+    fprintf(out, "rgb <%.15g, %.15g, %.15g>", gain[0], gain[1], gain[2]);
+  fputs(")\n  matrix <", out);
   for (int row = 0; row < 4; ++row)
     for (int c = 0; c < 3; ++c)
       fprintf(out, "%.15g%s", light->matrix[row][c] / (row < 3 ? scale : 1),

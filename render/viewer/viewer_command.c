@@ -33,9 +33,11 @@ static void add_light(FILE *out, const char *text, const struct light *light, bo
   if (!moved)
     add_word(out, "%s", text);
   else
-    add_word(out, "%s matrix=%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g gain=%.9g",
-             light->path, m[0][0], m[0][1], m[0][2], m[1][0], m[1][1], m[1][2], m[2][0], m[2][1],
-             m[2][2], m[3][0], m[3][1], m[3][2], light->gain);
+    add_word(
+        out,
+        "%s matrix=%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g gain=%.9g,%.9g,%.9g",
+        light->path, m[0][0], m[0][1], m[0][2], m[1][0], m[1][1], m[1][2], m[2][0], m[2][1],
+        m[2][2], m[3][0], m[3][1], m[3][2], light->gain[0], light->gain[1], light->gain[2]);
 }
 
 static void add_sum(FILE *out, const struct viewer_world *world, const struct viewer_sum *sum) {

@@ -12,8 +12,8 @@ load letter
   REFERENCE=10 agree 2 occluder occluder.obj --light 'letter_f.tif at=0,1,0'
 }
 
-@test "a lamp turned, scaled and brighter" {
-  agree 0.1 turned floor.obj --light 'letter_f.tif at=-0.5,1.2,-0.3 toward=0.2,0,0.4 up=1,0.3,0.5 scale=1.7 gain=3'
+@test "a lamp turned, scaled, brighter and coloured" {
+  agree 0.1 turned floor.obj --light 'letter_f.tif at=-0.5,1.2,-0.3 toward=0.2,0,0.4 up=1,0.3,0.5 scale=1.7 gain=3,0.5,1.2'
 }
 
 @test "a mirrored lamp, by its matrix" {

@@ -89,9 +89,10 @@ TEST(sums_over_views) {
     }
 }
 
-/* Two pages, two lights, gains that differ by 10^12. */
+/* Two pages, two lights, gains that differ by 10^12 and from colour to colour. */
 TEST(lights_and_pages_add_up) {
   static const int samples[2][SLAB_AXES] = {{3, 4, 5, 6}, {6, 2, 4, 9}};
+  static const double gains[3] = {1e12, 2e11, 3e12};
   struct slab slabs[2];
   for (int k = 0; k < 2; ++k)
     slabs[k] = rough_slab(samples[k], k ? 2 : INFINITY, window, FRAME_TURNED, FILL_SIGNED, 5);
@@ -99,8 +100,9 @@ TEST(lights_and_pages_add_up) {
   aim_some(&slabs[0], 200, 0.3, 30);
   expect_sums(slabs, 2, NULL, 200);
   for (int k = 0; k < 200; ++k)
-    for (int c = 0; c < 3; ++c) right[k][c] *= 1e12 + 1;
-  irradiance(receivers, 200, got, "--light '%s gain=1e12' --light %s --method gl", file, file);
+    for (int c = 0; c < 3; ++c) right[k][c] *= gains[c] + 1;
+  irradiance(receivers, 200, got, "--light '%s gain=1e12,2e11,3e12' --light %s --method gl", file,
+             file);
   assert_near(error_of(200), 0, 2e-5);
   for (int k = 0; k < 2; ++k) slab_free(&slabs[k]);
 }

@@ -200,6 +200,11 @@ TEST(test_gain) {
                  methods[m]);
       assert_close(other, expected, COUNT, 2 * PRINTED);
     }
+    for (int k = 0; k < COUNT; ++k)
+      for (int c = 0; c < 3; ++c) one[k][c] *= gains[c];
+    irradiance(receivers, COUNT, other, "--light '%s gain=0.5,3,1e-20' --method %s", light,
+               methods[m]);
+    assert_close(other, one, COUNT, 2 * PRINTED);
   }
   slab_free(&slab);
 }

@@ -102,7 +102,7 @@ static void make_light(int number, const int samples[SLAB_AXES], const double no
   struct light *light = &all.lights[number];
   *light = load_light(&slab, 1);
   slab_free(&slab);
-  light->gain = number == 2 ? 0.1 : 8;
+  for (int c = 0; c < 3; ++c) light->gain[c] = number == 2 ? 0.1 : 8;
   double matrix[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {at[0], at[1], at[2]}};
   assert_true(light_move(light, matrix));
 }

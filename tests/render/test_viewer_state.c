@@ -18,8 +18,8 @@ static const struct camera camera = {
 /* Two lights of a page each, off the origin of their lamps; three levels. */
 static struct light_page pages[2];
 static struct light lights[2] = {
-    {.path = "a lamp.tif", .count = 1, .pages = &pages[0], .gain = 2, .scale = 1},
-    {.path = "b.tif", .count = 1, .pages = &pages[1], .gain = 1, .scale = 2}};
+    {.path = "a lamp.tif", .count = 1, .pages = &pages[0], .gain = {2, 2, 2}, .scale = 1},
+    {.path = "b.tif", .count = 1, .pages = &pages[1], .gain = {1, 0.5, 0.25}, .scale = 2}};
 static struct levels levels[2] = {{.count = 3}, {.count = 1}};
 static struct gather_prepared prepared = {.pages = 2, .levels = levels};
 static struct viewer_world world = {
@@ -219,9 +219,10 @@ TEST(the_command_is_complete) {
   assert_non_null(strstr(command, "renderslab image 'it'\\''s.obj' "
                                   "--light 'a lamp.tif at=0,0,0 gain=2' "
                                   "--light 'b.tif matrix="));
-  assert_non_null(strstr(command, "gain=1' --camera 'from=1,3,-4 at=0.5,0.7,1 up=0.2,2,0.1 fov=50' "
-                                  "--method gl --level 2 --no-shadows --size 30x20 "
-                                  "--background=0,-0.5,0 --repair -o out.exr"));
+  assert_non_null(strstr(command,
+                         "gain=1,0.5,0.25' --camera 'from=1,3,-4 at=0.5,0.7,1 up=0.2,2,0.1 fov=50' "
+                         "--method gl --level 2 --no-shadows --size 30x20 "
+                         "--background=0,-0.5,0 --repair -o out.exr"));
   free(command);
   press(&state, "r V V d G");
   world.background[1] = 0;
