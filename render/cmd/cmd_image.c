@@ -5,18 +5,16 @@
 #include "cli/cli.h"
 #include "cli/values.h"
 #include "cmd/commands.h"
+#include "cmd/picture_files.h"
 #include "cmd/stats.h"
 #include "cmd/world.h"
-#include "file/slab_exr.h"
 #include "picture/image.h"
-#include "picture/preview.h"
 #include "shadow/occlusion.h"
 
 struct arguments {
   struct world world;
-  const char *output, *preview;
+  struct picture_files files;
   int samples;
-  double exposure;   /* 0: by the picture */
   double time_limit; /* seconds; 0: none */
   double start;      /* of the command, on progress_now's clock */
   bool no_shadows;
@@ -31,13 +29,13 @@ enum {
 };
 
 static const struct argp_option options_list[] = {
-    {"output", 'o', "OUT.exr", 0, "The picture: radiance in float RGB; - is standard output", 0},
+    {"output", 'o', "OUT.exr|png", 0,
+     "The picture: radiance in float RGB, or 8-bit sRGB as a PNG; - is EXR on standard output", 0},
     {"samples", OPTION_SAMPLES, "N", 0,
      "N x N rays a pixel, on a regular grid (default 1, through its middle)", 0},
     {"preview", OPTION_PREVIEW, "FILE.png", 0, "Write an 8-bit sRGB picture too", 0},
     {"exposure", OPTION_EXPOSURE, "X", 0,
-     "Radiance that is white in the preview (default: 99 % of its pixels are at most 0.9 of it)",
-     0},
+     "Radiance that is white in a PNG (default: 99 % of the pixels are at most 0.9 of it)", 0},
     {"time-limit", OPTION_TIME_LIMIT, "S", 0,
      "The best picture that S seconds allow, down to --tolerance; says how good it got", 0},
     {"no-shadows", OPTION_NO_SHADOWS, NULL, 0, "Light passes through the mesh", 0},
@@ -45,20 +43,20 @@ static const struct argp_option options_list[] = {
 
 #define ARGUMENT(member) offsetof(struct arguments, member)
 static const struct value values[] = {
-    {'o', VALUE_TEXT, ARGUMENT(output), 0, 0},
+    {'o', VALUE_TEXT, ARGUMENT(files.output), 0, 0},
     {OPTION_SAMPLES, VALUE_WHOLE, ARGUMENT(samples), 1, IMAGE_MOST_SAMPLES},
-    {OPTION_PREVIEW, VALUE_TEXT, ARGUMENT(preview), 0, 0},
-    {OPTION_EXPOSURE, VALUE_POSITIVE, ARGUMENT(exposure), 0, 0},
+    {OPTION_PREVIEW, VALUE_TEXT, ARGUMENT(files.preview), 0, 0},
+    {OPTION_EXPOSURE, VALUE_POSITIVE, ARGUMENT(files.exposure), 0, 0},
     {OPTION_TIME_LIMIT, VALUE_POSITIVE, ARGUMENT(time_limit), 0, 0},
     {OPTION_NO_SHADOWS, VALUE_FLAG, ARGUMENT(no_shadows), 0, 0},
     {0}};
 
 static void check_output(const char *path, struct argp_state *state) {
-  size_t length = path ? strlen(path) : 0;
   if (!path)
     argp_error(state, "no output given; add -o OUT.exr");
-  else if (strcmp(path, "-") && (length < 5 || strcmp(path + length - 4, ".exr")))
-    argp_error(state, "-o %s: must end in .exr; --preview writes a PNG", path);
+  else if (strcmp(path, "-") && !picture_files_end(path, ".exr") &&
+           !picture_files_end(path, ".png"))
+    argp_error(state, "-o %s: must end in .exr or .png", path);
 }
 
 static error_t parse(int key, char *value, struct argp_state *state) {
@@ -72,7 +70,7 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     if (arguments->time_limit > 0 &&
         gather_methods[arguments->world.options.method].sum == METHOD_OPENGL)
       argp_error(state, "--time-limit: not with --method gl, which has one pass; use --level");
-    check_output(arguments->output, state);
+    check_output(arguments->files.output, state);
     return 0;
   default:
     return values_take(values, options_list, key, value, arguments, state);
@@ -94,7 +92,7 @@ static enum result load(struct arguments *arguments, struct error *error) {
   struct world *world = &arguments->world;
   uint64_t receivers = (uint64_t)world->view.size[0] * (uint64_t)world->view.size[1] *
                        (uint64_t)(arguments->samples * arguments->samples);
-  const char *outputs[] = {arguments->output, arguments->preview, world->options.stats};
+  const char *outputs[] = {arguments->files.output, arguments->files.preview, world->options.stats};
   enum result result = world_load_lights(world, outputs, 3, error);
   if (result == RESULT_OK) result = world_prepare(world, receivers, error);
   if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
@@ -131,10 +129,10 @@ static void tell_report(const struct arguments *arguments, const struct image_re
   if (!(arguments->time_limit > 0)) return;
   if (report->late)
     cli_note("%s: note: %g s do not suffice for one pass; this is the coarsest picture",
-             arguments->output, arguments->time_limit);
+             arguments->files.output, arguments->time_limit);
   cli_note("%s: note: gathered with tolerances from %.2g to %.2g in %d pass%s; relative error at "
            "most %.2g",
-           arguments->output, report->best_tolerance, report->worst_tolerance, report->passes,
+           arguments->files.output, report->best_tolerance, report->worst_tolerance, report->passes,
            report->passes > 1 ? "es" : "", report->error);
 }
 
@@ -162,23 +160,6 @@ static enum result render(const struct arguments *arguments, struct picture *pic
   return result;
 }
 
-static enum result write_files(const struct arguments *arguments, const struct picture *picture,
-                               struct error *error) {
-  const char *command = cli_command_line();
-  double white = arguments->exposure;
-  enum result result = slab_exr_write(arguments->output, picture, 0, command, error);
-  if (result != RESULT_OK || !arguments->preview) return result;
-  if (!(white > 0)) {
-    result = preview_exposure(picture, &white, error);
-    if (result == RESULT_OK)
-      cli_note("%s: note: radiance %.4g is white; --exposure %.4g keeps it", arguments->preview,
-               white, white);
-  }
-  if (result == RESULT_OK)
-    result = preview_write(arguments->preview, picture, white, command, error);
-  return result;
-}
-
 static enum result run(void *input, struct error *error) {
   struct arguments *arguments = input;
   struct picture picture = {0};
@@ -191,7 +172,7 @@ static enum result run(void *input, struct error *error) {
   }
   if (result == RESULT_OK) {
     stats_phase(&stats, "write");
-    result = write_files(arguments, &picture, error);
+    result = picture_files_write(&arguments->files, &picture, error);
   }
   result = stats_end(&stats, &arguments->world, result, error);
   picture_free(&picture);

@@ -1,5 +1,7 @@
 #include "cmd/picture_options.h"
 
+#include <string.h>
+
 #include "base/numbers.h"
 #include "cli/cli.h"
 #include "cli/values.h"
@@ -9,7 +11,9 @@ enum { OPTION_CAMERA = 2000, OPTION_SIZE, OPTION_BACKGROUND };
 
 static const struct argp_option options_list[] = {
     {"camera", OPTION_CAMERA, "CAMERA", 0,
-     "'from=X,Y,Z at=X,Y,Z [up=X,Y,Z] [fov=DEG]'; fov is the horizontal angle (default 60)", 0},
+     "'from=X,Y,Z at=X,Y,Z [up=X,Y,Z] [fov=DEG]'; fov is the horizontal angle (default 60). Or the "
+     "name of a glTF file's camera",
+     0},
     {"size", OPTION_SIZE, "WxH", 0, "Of the picture, in pixels (default 640x480)", 0},
     {"background", OPTION_BACKGROUND, "R,G,B", 0, "Radiance where nothing is (default 0,0,0)", 0},
     {0}};
@@ -27,7 +31,8 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     options->size[1] = 480;
     return 0;
   case OPTION_CAMERA:
-    if (camera_parse(value, &options->camera, &error) != RESULT_OK)
+    options->camera_name = *value && !strchr(value, '=') ? value : NULL;
+    if (!options->camera_name && camera_parse(value, &options->camera, &error) != RESULT_OK)
       argp_error(state, "%s", error.text);
     options->camera_given = true;
     return 0;

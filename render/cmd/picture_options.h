@@ -11,6 +11,7 @@
 struct picture_options {
   const char *mesh;
   bool camera_given, camera_optional; /* the second is set beforehand */
+  const char *camera_name; /* of the mesh file, which world_load_scene looks up; NULL: none */
   struct camera camera;
   int size[2];          /* 640 x 480, unless another is set beforehand */
   double background[3]; /* black */

@@ -1,5 +1,6 @@
 #include "cmd/world.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,12 +34,65 @@ enum result world_prepare(struct world *world, uint64_t receivers, struct error 
                         world->options.threads, &world->prepared, error);
 }
 
+static void tell_ignored(const struct scene *scene, const struct picture_options *view) {
+  char names[400];
+  for (int k = 0; k < SCENE_IGNORED; ++k)
+    if (scene->ignored[k]) cli_note("%s: note: %s", view->mesh, scene->ignored[k]);
+  if (scene->camera_count > 0 && !view->camera_name)
+    cli_note("%s: note: cameras of the file are ignored, unless --camera names one: %s", view->mesh,
+             scene_camera_names(scene, sizeof names, names));
+}
+
+/* The longest side of an aperture, in scene units. */
+static double width_of(const struct light *light) {
+  double width = 0;
+  for (int page = 0; page < light->count; ++page)
+    for (int k = 0; k < 2; ++k) width = fmax(width, 2 * light->pages[page].axes[k].half);
+  return width;
+}
+
+/* Lamps as large as the whole scene, or a mere point in it, are rare. */
+static bool fits(double width, double size) {
+  return width < size && width > size / 3000;
+}
+
+/* A scale= that was forgotten: the slab knows its unit, and the scene's is known or must be
+ * another. */
+static void tell_units(const struct world *world, const char *mesh) {
+  double low[3], high[3], size = 0;
+  scene_box(&world->scene, low, high);
+  for (int c = 0; c < 3; ++c) size = fmax(size, high[c] - low[c]);
+  for (int k = 0; k < world->light_count; ++k) {
+    const struct light *light = &world->lights[k];
+    double unit = light->pages[0].slab.metres_per_unit, width = width_of(light);
+    bool told = unit == 1 || light->scale != 1;
+    for (int before = 0; before < k; ++before)
+      told |= !strcmp(world->lights[before].path, light->path);
+    if (told) continue;
+    if (world->scene.metres)
+      cli_note("%s: note: its unit is %g m, and %s is in metres: scale=%g makes it as large as it "
+               "is",
+               light->path, unit, mesh, unit);
+    else if (!fits(width, size) && fits(width * unit, size))
+      cli_note("%s: note: it is %.3g wide, and all of %s %.3g: its unit is %g m; scale=%g if the "
+               "mesh is in metres",
+               light->path, width, mesh, size, unit, unit);
+  }
+}
+
 enum result world_load_scene(struct world *world, enum scene_needs needs, struct error *error) {
-  const char *mesh = world->view.mesh;
+  struct picture_options *view = &world->view;
+  const char *mesh = view->mesh;
   char note[256] = "";
   enum result result = scene_load(mesh, needs, world->options.repair, &world->scene, note, error);
   if (result == RESULT_OK && *note) cli_note("%s: note: %s", mesh, note);
-  return result;
+  if (result == RESULT_OK && view->camera_name)
+    result = scene_find_camera(&world->scene, mesh, view->camera_name,
+                               (double)view->size[0] / view->size[1], &view->camera, error);
+  if (result != RESULT_OK || needs != SCENE_SURFACES) return result;
+  tell_ignored(&world->scene, view);
+  tell_units(world, mesh);
+  return RESULT_OK;
 }
 
 void world_free(struct world *world) {

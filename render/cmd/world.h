@@ -29,7 +29,8 @@ enum result world_load_lights(struct world *world, const char *const *outputs, i
 /* What the options' method needs for so many receivers (gather_prepare). */
 enum result world_prepare(struct world *world, uint64_t receivers, struct error *error);
 
-/* Loads the mesh, and says in a note what was repaired. */
+/* Loads the mesh, finds the camera that is named, and says in notes what was repaired and, of
+ * SCENE_SURFACES, what is ignored and where a lamp's size seems to be in another unit. */
 enum result world_load_scene(struct world *world, enum scene_needs needs, struct error *error);
 
 void world_free(struct world *world);

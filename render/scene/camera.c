@@ -10,10 +10,10 @@
 
 enum result camera_parse(const char *text, struct camera *camera, struct error *error) {
   *camera = (struct camera){.up = {0, 1, 0}, .fov = 60};
-  struct key_value keys[] = {{"from=X,Y,Z", 3, camera->from, false},
-                             {"at=X,Y,Z", 3, camera->at, false},
-                             {"up=X,Y,Z", 3, camera->up, false},
-                             {"fov=DEG", 1, &camera->fov, false}};
+  struct key_value keys[] = {{"from=X,Y,Z", 3, camera->from, false, false},
+                             {"at=X,Y,Z", 3, camera->at, false, false},
+                             {"up=X,Y,Z", 3, camera->up, false, false},
+                             {"fov=DEG", 1, &camera->fov, false, false}};
   char what[256];
   snprintf(what, sizeof what, "camera '%s'", text);
   enum result result = key_values_parse(what, text, keys, sizeof keys / sizeof *keys, error);
@@ -21,6 +21,16 @@ enum result camera_parse(const char *text, struct camera *camera, struct error *
   for (int k = 0; k < 2; ++k)
     if (!keys[k].seen)
       return result_fail(error, RESULT_BAD, "%s: %s is missing", what, keys[k].form);
+  return camera_check(what, camera, error);
+}
+
+static bool is_finite(const double numbers[3]) {
+  return isfinite(numbers[0]) && isfinite(numbers[1]) && isfinite(numbers[2]);
+}
+
+enum result camera_check(const char *what, const struct camera *camera, struct error *error) {
+  if (!is_finite(camera->from) || !is_finite(camera->at) || !is_finite(camera->up))
+    return result_fail(error, RESULT_BAD, "%s: is not finite", what);
   if (!(camera->fov > 0 && camera->fov < 180))
     return result_fail(error, RESULT_BAD, "%s: fov must be between 0 and 180 degrees", what);
   double forward[3], up[3], right[3];

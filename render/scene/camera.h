@@ -14,6 +14,9 @@ struct camera {
  * Refuses numbers that are not finite, from = at, up along the view, and fov outside ]0,180[. */
 enum result camera_parse(const char *text, struct camera *camera, struct error *error);
 
+/* The same refusals, for one that comes from elsewhere; `what` names it. */
+enum result camera_check(const char *what, const struct camera *camera, struct error *error);
+
 /* Unit vectors along the view, to the right and up. */
 void camera_axes(const struct camera *camera, double forward[3], double right[3], double up[3]);
 

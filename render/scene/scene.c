@@ -19,6 +19,8 @@ void scene_free(struct scene *scene) {
     picture_free(&scene->textures[k].picture);
   }
   free(scene->textures);
+  free(scene->cameras);
+  for (int k = 0; k < SCENE_IGNORED; ++k) free(scene->ignored[k]);
   *scene = (struct scene){0};
 }
 

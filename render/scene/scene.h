@@ -13,9 +13,10 @@
  * (Ns + 2)/8, so that a highlight seen along the normal reflects no more than the Fresnel
  * reflectance there. PLY knows no materials: its surfaces are white, its colours unread.
  *
- * All surfaces are opaque and two-sided; illumination models, transparency, bump and normal
- * maps, ambient colours and occlusion maps, lights and cameras are not read. Anything else
- * that would change the picture is refused (or ignored, with `repair`): other textures than
+ * All surfaces are opaque and two-sided; illumination models, ambient colours and occlusion maps
+ * are not read. Transparency, bump and normal maps, lights, PLY's and OBJ's colours of vertices are
+ * ignored, and told in scene.ignored, as is emission, which is shown but lights nothing. Anything
+ * else that would change the picture is refused (or ignored, with `repair`): other textures than
  * those of the diffuse colour, options of map_Kd, extensions and vertex colours of glTF. */
 #ifndef SCENE_H
 #define SCENE_H
@@ -25,6 +26,7 @@
 
 #include "base/picture.h"
 #include "base/result.h"
+#include "scene/camera.h"
 
 struct scene_material {
   char name[128];
@@ -41,6 +43,26 @@ struct scene_texture {
   struct picture picture; /* linear RGB, row 0 at the top; owned */
 };
 
+/* A camera of a glTF file, in POV-Ray's coordinates. */
+struct scene_camera {
+  char name[128];       /* of its node, of the camera, or its number */
+  char other_name[128]; /* of the camera; may be empty */
+  bool perspective;
+  double from[3], forward[3], up[3]; /* directions of any length */
+  double vertical;                   /* angle, degrees */
+  double aspect;                     /* width over height; 0: the picture's */
+};
+
+/* What a file asks for that changes nothing in the picture, or not all that it should. */
+enum scene_ignored {
+  SCENE_TRANSPARENCY,
+  SCENE_BUMPS,
+  SCENE_COLOURS,
+  SCENE_EMISSION,
+  SCENE_LIGHTS,
+  SCENE_IGNORED
+};
+
 struct scene {
   size_t vertices, triangles;
   double (*position)[3]; /* [vertices] */
@@ -51,6 +73,10 @@ struct scene {
   int material_count, texture_count;
   struct scene_material *materials;
   struct scene_texture *textures;
+  int camera_count;
+  struct scene_camera *cameras;
+  bool metres;                  /* are its units, as glTF says; else they are not known */
+  char *ignored[SCENE_IGNORED]; /* a sentence that names what; NULL: nothing; owned */
 };
 
 enum scene_needs {
@@ -70,6 +96,14 @@ enum scene_needs {
 enum result scene_load(const char *path, enum scene_needs needs, bool repair, struct scene *scene,
                        char note[256], struct error *error);
 void scene_free(struct scene *scene); /* zeroed scene allowed */
+
+/* The file's own camera, by the name of its node or its own, looking at the middle of the scene;
+ * `aspect` is the picture's. Refuses, naming those that there are. */
+enum result scene_find_camera(const struct scene *scene, const char *path, const char *name,
+                              double aspect, struct camera *camera, struct error *error);
+
+/* Their names, in quotes; returns `names`. */
+const char *scene_camera_names(const struct scene *scene, size_t room, char *names);
 
 /* Does it have a highlight? */
 bool scene_glossy(const struct scene_material *material);

@@ -56,6 +56,8 @@ static enum result find_format(struct scene_loading *loading, struct error *erro
 
 static enum result import(struct scene_loading *loading, struct error *error) {
   enum result result = scene_text_read(loading, error);
+  if (result == RESULT_OK && loading->format == SCENE_GLTF && loading->needs == SCENE_SURFACES)
+    result = scene_gltf_cameras(loading, error);
   if (result != RESULT_OK) return result;
   const struct aiScene *from = aiImportFile(loading->path, aiProcess_Triangulate);
   bool *used = from ? calloc((size_t)from->mNumMaterials + 1, sizeof *used) : NULL;
@@ -98,6 +100,7 @@ enum result scene_load(const char *path, enum scene_needs needs, bool repair, st
   if (result == RESULT_OK) result = import(&loading, error);
   note[0] = 0;
   if (result == RESULT_OK) write_note(&loading, note);
+  scene->metres = loading.format == SCENE_GLTF;
   free(loading.mtl);
   if (result != RESULT_OK) scene_free(scene);
   return result;

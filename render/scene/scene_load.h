@@ -5,6 +5,7 @@
 #ifndef SCENE_LOAD_H
 #define SCENE_LOAD_H
 
+#include "base/array.h"
 #include "scene/scene.h"
 
 enum scene_format { SCENE_OBJ, SCENE_GLTF, SCENE_PLY };
@@ -12,7 +13,9 @@ enum scene_format { SCENE_OBJ, SCENE_GLTF, SCENE_PLY };
 struct scene_mtl {
   struct scene_material material;
   bool has_diffuse, has_texture;
-  char texture[1024]; /* as the file names it */
+  bool transparent, see_through, bumps; /* d or Tr, map_d, bump maps: ignored */
+  bool has_opacity;                     /* d, which decides whatever Tr says */
+  char texture[1024];                   /* as the file names it */
 };
 
 struct scene_loading {
@@ -30,6 +33,13 @@ struct scene_loading {
   size_t white;    /* materials */
   size_t unread;   /* properties of materials */
 };
+
+/* Notes that something is ignored, by the name of its material, mesh or light; a name once. False
+ * without memory. */
+bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const char *name);
+
+/* Reads the cameras of a glTF file. */
+enum result scene_gltf_cameras(struct scene_loading *loading, struct error *error);
 
 struct aiScene;
 

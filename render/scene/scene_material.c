@@ -1,4 +1,5 @@
 /* scene_material.c - materials and their textures */
+#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <math.h>
@@ -99,6 +100,12 @@ static enum result no_material(struct scene_loading *loading, const struct aiSce
                      loading->path, mesh);
 }
 
+static enum result ignore(struct scene_loading *loading, enum scene_ignored kind, bool there,
+                          const char *name, struct error *error) {
+  if (!there || scene_ignore(loading, kind, name)) return RESULT_OK;
+  return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
+}
+
 static enum result from_mtl(struct scene_loading *loading, const struct aiScene *from,
                             unsigned number, struct scene_material *material, struct error *error) {
   const struct scene_mtl *mtl = scene_text_material(loading, material->name);
@@ -115,8 +122,22 @@ static enum result from_mtl(struct scene_loading *loading, const struct aiScene 
                          "%s: material '%s' has no Kd, map_Kd or Ke; --repair makes it white",
                          loading->path, material->name);
   }
-  if (!mtl->has_texture) return RESULT_OK;
+  enum result result = ignore(loading, SCENE_TRANSPARENCY, mtl->transparent || mtl->see_through,
+                              material->name, error);
+  if (result == RESULT_OK) result = ignore(loading, SCENE_BUMPS, mtl->bumps, material->name, error);
+  if (result != RESULT_OK || !mtl->has_texture) return result;
   return find_texture(loading, from, mtl->texture, &material->texture, error);
+}
+
+/* With alphaMode OPAQUE alpha means nothing. */
+static bool is_transparent(const struct aiMaterial *source, double alpha) {
+  struct aiString mode = {0};
+  ai_real through = 0;
+  aiGetMaterialString(source, AI_MATKEY_GLTF_ALPHAMODE, &mode);
+  aiGetMaterialFloatArray(source, AI_MATKEY_TRANSMISSION_FACTOR, &through, NULL);
+  bool texture = aiGetMaterialTextureCount(source, aiTextureType_BASE_COLOR) > 0;
+  bool blends = strcmp(mode.data, "BLEND") == 0 || strcmp(mode.data, "MASK") == 0;
+  return through > 0 || (blends && (alpha < 1 || texture));
 }
 
 static enum result check_gltf(struct scene_loading *loading, const struct aiMaterial *source,
@@ -180,6 +201,13 @@ static enum result from_gltf(struct scene_loading *loading, const struct aiScene
   if (aiGetMaterialTexture(source, aiTextureType_BASE_COLOR, 0, &name, NULL, NULL, NULL, NULL, NULL,
                            NULL) == aiReturn_SUCCESS)
     result = find_texture(loading, from, name.data, &material->texture, error);
+  if (result == RESULT_OK)
+    result = ignore(loading, SCENE_TRANSPARENCY, is_transparent(source, (double)base.a),
+                    material->name, error);
+  if (result == RESULT_OK)
+    result =
+        ignore(loading, SCENE_BUMPS, aiGetMaterialTextureCount(source, aiTextureType_NORMALS) > 0,
+               material->name, error);
   return result != RESULT_OK ? result : check_gltf(loading, source, material, factors[0], error);
 }
 
@@ -209,7 +237,7 @@ static enum result check_mesh(struct scene_loading *loading, const struct aiMesh
   if (loading->format == SCENE_GLTF && mesh->mColors[0])
     return scene_unread(loading, error, "%s: mesh '%s' has colours at its vertices", loading->path,
                         mesh->mName.data);
-  return RESULT_OK;
+  return ignore(loading, SCENE_COLOURS, mesh->mColors[0] != NULL, mesh->mName.data, error);
 }
 
 enum result scene_import_materials(struct scene_loading *loading, const struct aiScene *from,
@@ -234,8 +262,14 @@ enum result scene_import_materials(struct scene_loading *loading, const struct a
     else
       make_white(material); /* PLY has none */
     if (result == RESULT_OK) result = check(loading, material, error);
+    const double *glow = material->emission;
+    if (result == RESULT_OK)
+      result = ignore(loading, SCENE_EMISSION, glow[0] > 0 || glow[1] > 0 || glow[2] > 0,
+                      material->name, error);
   }
   for (unsigned k = 0; k < from->mNumMeshes && result == RESULT_OK; ++k)
     result = check_mesh(loading, from->mMeshes[k], error);
+  for (unsigned k = 0; k < from->mNumLights && result == RESULT_OK; ++k)
+    result = ignore(loading, SCENE_LIGHTS, true, from->mLights[k]->mName.data, error);
   return result;
 }

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/array.h"
 #include "scene/scene_load.h"
 
 struct line {
@@ -114,12 +113,29 @@ static enum result read_texture(struct scene_loading *loading, const struct line
   return RESULT_OK;
 }
 
+/* What changes nothing in the picture. d is opacity, Tr what is lacking of it; some programs write
+ * both, and Tr then at times the wrong way round. */
+static void note_ignored(struct scene_mtl *mtl, const struct line *line) {
+  static const char *const bumps[] = {"bump", "map_Bump", "map_bump", "norm", "map_Kn", "disp"};
+  double opacity = 1;
+  bool d = strcmp(line->keyword, "d") == 0;
+  if ((d || strcmp(line->keyword, "Tr") == 0) && read_numbers(line->rest, 1, &opacity) == 1) {
+    if (!d) opacity = 1 - opacity;
+    if (d || !mtl->has_opacity) mtl->transparent = opacity < 1;
+    mtl->has_opacity |= d;
+  }
+  if (strcmp(line->keyword, "map_d") == 0) mtl->see_through = true;
+  for (size_t k = 0; k < sizeof bumps / sizeof *bumps; ++k)
+    mtl->bumps |= strcmp(line->keyword, bumps[k]) == 0;
+}
+
 static enum result read_mtl_line(struct scene_loading *loading, const struct line *line,
                                  struct error *error) {
   static const char *const unread[] = {"map_Ks", "map_Ke", "map_Ns"};
   if (strcmp(line->keyword, "newmtl") == 0) return new_material(loading, line, error);
   struct scene_mtl *mtl = loading->mtl_count ? &loading->mtl[loading->mtl_count - 1] : NULL;
   if (!mtl) return RESULT_OK;
+  note_ignored(mtl, line);
   if (strcmp(line->keyword, "Kd") == 0) {
     mtl->has_diffuse = true;
     return read_colour(line, mtl->material.diffuse, error);

@@ -44,8 +44,7 @@ load ../testing
   for program in "$BAKESLAB" "$RENDERSLAB"; do
     diff <("$program" -h) <("$program" --help)
     for command in $("$program" --help | sed -n 's/^  \([a-z]\{1,\}\)  .*/\1/p' | grep -vx help); do
-      "$program" "$command" -h >short
-      "$program" "$command" --help | cmp - short
+      diff <("$program" "$command" -h) <("$program" "$command" --help)
     done
   done
 }

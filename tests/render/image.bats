@@ -104,6 +104,32 @@ picture() {
   [ "$(mean_of sky.png --mulc 255)" = 243,179,130 ]
 }
 
+@test "-o x.png is the preview itself" {
+  picture a.exr --preview a.png --exposure 0.01
+  picture b.png --exposure 0.01
+  idiff -fail 0 -warn 0 a.png b.png
+  [ "$(head -c 8 b.png)" = "$(head -c 8 a.png)" ]
+}
+
+@test "what is ignored is told by name, and a scale= that was forgotten; -q silences" {
+  # A lamp in centimetres, 20 wide over a floor of 6.
+  letter_slab cm.tif cm 1 1 '"metres_per_unit": 0.01, "center": [0, 0, 0], "u": [20, 0, 0], "v": [0, 0, 16], "normal": [0, -1, 0], "st_window": [-1, 1, -1, 1]'
+  sed 's/^Kd.*/&\nd 0.5/' -i floor.mtl
+  good=(image floor.obj --camera 'from=0,2,-3 at=0,0,0' --size 8x6 -o a.exr)
+  run -0 --separate-stderr "$RENDERSLAB" "${good[@]}" --light 'cm.tif at=0,1,0' --light cm.tif
+  # shellcheck disable=SC2154 # stderr_lines is set by run
+  [ "${#stderr_lines[@]}" -eq 2 ]
+  [[ ${stderr_lines[0]} == "renderslab: floor.obj: note: transparency is ignored, surfaces are opaque: '"*"'" ]]
+  [[ ${stderr_lines[1]} == "renderslab: cm.tif: note: it is 20 wide, "*" scale=0.01 "* ]]
+  run -0 --separate-stderr "$RENDERSLAB" "${good[@]}" -q --light 'cm.tif at=0,1,0'
+  [ -z "$stderr" ]
+  run -0 --separate-stderr "$RENDERSLAB" "${good[@]}" --light 'cm.tif at=0,1,0 scale=0.01'
+  [ "${#stderr_lines[@]}" -eq 1 ]
+  run --separate-stderr "$RENDERSLAB" "${good[@]}" --light cm.tif --camera Eye
+  [ "$status" -eq 1 ]
+  [[ $stderr == *"has no camera 'Eye', but none at all"* ]]
+}
+
 @test "statistics" {
   picture a.exr --stats a.json
   for key in '"command": "renderslab image occluder.obj ' '"total": ' '"receivers": ' '"microlights": ' \
@@ -193,7 +219,8 @@ rejects() { harmless "$1" "$RENDERSLAB" image "${@:2}"; }
   rejects exposure "${good[@]}" -o a.exr --exposure -1
   rejects background "${good[@]}" -o a.exr --background 1,2
   rejects output "${good[@]}"
-  rejects .exr "${good[@]}" -o a.png
+  rejects .exr "${good[@]}" -o a.jpg
+  rejects .exr "${good[@]}" -o .png
   rejects nowhere "${good[@]}" -o nowhere/a.exr
   rejects nowhere "${good[@]}" -o a.exr --preview nowhere/a.png
   rejects nowhere "${good[@]}" -o a.exr --stats nowhere/a.json

@@ -1,0 +1,23 @@
+/* picture_files.h - the files of a picture: EXR, or PNG by their endings, and a preview. */
+#ifndef PICTURE_FILES_H
+#define PICTURE_FILES_H
+
+#include <stdbool.h>
+
+#include "base/picture.h"
+#include "base/result.h"
+
+struct picture_files {
+  const char *output;  /* .exr or .png; "-": EXR on standard output */
+  const char *preview; /* a PNG; NULL: none */
+  double exposure;     /* radiance that is white in PNGs; 0: by the picture, and told in a note */
+};
+
+/* Does the path have a name and this ending? */
+bool picture_files_end(const char *path, const char *ending);
+
+/* Each whole or not at all. */
+enum result picture_files_write(const struct picture_files *files, const struct picture *picture,
+                                struct error *error);
+
+#endif

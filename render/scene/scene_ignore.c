@@ -1,0 +1,33 @@
+/* scene_ignore.c - what a mesh file asks for and is ignored, by name. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene_load.h"
+
+/* At most so many letters of names. */
+enum { MOST_NAMES = 400 };
+
+bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const char *name) {
+  static const char *const sentences[SCENE_IGNORED] = {
+      [SCENE_TRANSPARENCY] = "transparency is ignored, surfaces are opaque:",
+      [SCENE_BUMPS] = "bump and normal maps are ignored:",
+      [SCENE_COLOURS] = "colours of vertices are ignored:",
+      [SCENE_EMISSION] = "emission is shown but lights nothing:",
+      [SCENE_LIGHTS] = "lights of the file are ignored:"};
+  char **there = &loading->scene->ignored[kind], *made, *quoted;
+  if (asprintf(&quoted, " '%s'", name) < 0) return false;
+  bool known = *there && strstr(*there, quoted);
+  size_t length = *there ? strlen(*there) : 0;
+  bool full = length > MOST_NAMES;
+  if (full && strcmp(*there + length - 4, " ...") == 0) known = true;
+  int printed = known ? 0
+                      : asprintf(&made, "%s%s%s", *there ? *there : sentences[kind],
+                                 *there ? "," : "", full ? " ..." : quoted);
+  free(quoted);
+  if (printed < 0) return false;
+  if (known) return true;
+  free(*there);
+  *there = made;
+  return true;
+}
