@@ -1,6 +1,8 @@
 #include "base/progress.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -10,6 +12,23 @@ double progress_now(void) {
   struct timespec time;
   clock_gettime(CLOCK_MONOTONIC, &time);
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+double progress_process_start(void) {
+  /* The 22nd field of /proc/self/stat, in ticks since the machine began: the 20th after the name,
+   * which ends with the last parenthesis. */
+  char text[1024] = "";
+  double now = progress_now(), age = 0;
+  struct timespec time;
+  FILE *file = fopen("/proc/self/stat", "re");
+  size_t length = file ? fread(text, 1, sizeof text - 1, file) : 0;
+  const char *at = length > 0 ? strrchr(text, ')') : NULL;
+  for (int field = 0; field < 20 && at; ++field) at = strchr(at + 1, ' ');
+  if (at && clock_gettime(CLOCK_BOOTTIME, &time) == 0)
+    age = (double)time.tv_sec + 1e-9 * (double)time.tv_nsec -
+          (strtod(at, NULL) + 0.5) / (double)sysconf(_SC_CLK_TCK);
+  if (file) fclose(file);
+  return age > 0 && age < 60 ? now - age : now;
 }
 
 void progress_start(struct progress *progress, bool quiet, double part) {

@@ -13,6 +13,9 @@ struct progress {
 /* Seconds on a clock that never jumps. */
 double progress_now(void);
 
+/* When this process began, to 5 ms; now, where the system does not tell. */
+double progress_process_start(void);
+
 /* `quiet`, or a stderr that is no terminal, keeps it silent. */
 void progress_start(struct progress *progress, bool quiet, double part);
 /* part: 0..1 of the work, label: what is being done. Draws at most 5 times a second. */

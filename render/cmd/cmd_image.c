@@ -1,4 +1,6 @@
 /* cmd_image.c - renderslab image: a picture of a mesh scene that light slabs light. */
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/progress.h"
@@ -16,9 +18,12 @@ struct arguments {
   struct picture_files files;
   int samples;
   double time_limit; /* seconds; 0: none */
-  double start;      /* of the command, on progress_now's clock */
+  double start;      /* of the process, on progress_now's clock */
   bool no_shadows;
 };
+
+/* Seconds that it takes to free all and to end. */
+static const double leaving = 0.005;
 
 enum {
   OPTION_SAMPLES = 256,
@@ -37,7 +42,9 @@ static const struct argp_option options_list[] = {
     {"exposure", OPTION_EXPOSURE, "X", 0,
      "Radiance that is white in a PNG (default: 99 % of the pixels are at most 0.9 of it)", 0},
     {"time-limit", OPTION_TIME_LIMIT, "S", 0,
-     "The best picture that S seconds allow, down to --tolerance; says how good it got", 0},
+     "The best picture that S seconds allow from the command's start to its end, down to "
+     "--tolerance; says how good it got",
+     0},
     {"no-shadows", OPTION_NO_SHADOWS, NULL, 0, "Light passes through the mesh", 0},
     {0}};
 
@@ -88,13 +95,24 @@ static enum result check_method(const struct world *world, struct error *error) 
                      world->view.mesh, glossy->name, method->name);
 }
 
+/* Receivers for which it may pay to build trees, at some 0.2 us a sample: where time is limited,
+ * only if that is less than half of it. */
+static uint64_t count_receivers(const struct arguments *arguments) {
+  const struct world *world = &arguments->world;
+  const int *size = world->view.size, samples = arguments->samples;
+  double seconds = 0;
+  for (int l = 0; l < world->light_count; ++l)
+    for (int page = 0; page < world->lights[l].count; ++page)
+      seconds += 2e-7 * (double)slab_sample_count(&world->lights[l].pages[page].slab);
+  if (arguments->time_limit > 0 && seconds > arguments->time_limit / 2) return 0;
+  return (uint64_t)size[0] * (uint64_t)size[1] * (uint64_t)(samples * samples);
+}
+
 static enum result load(struct arguments *arguments, struct error *error) {
   struct world *world = &arguments->world;
-  uint64_t receivers = (uint64_t)world->view.size[0] * (uint64_t)world->view.size[1] *
-                       (uint64_t)(arguments->samples * arguments->samples);
   const char *outputs[] = {arguments->files.output, arguments->files.preview, world->options.stats};
   enum result result = world_load_lights(world, outputs, 3, error);
-  if (result == RESULT_OK) result = world_prepare(world, receivers, error);
+  if (result == RESULT_OK) result = world_prepare(world, count_receivers(arguments), error);
   if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
   if (result == RESULT_OK) result = check_method(world, error);
   if (result == RESULT_OK) result = occlusion_create(&world->scene, &world->occlusion, error);
@@ -124,20 +142,40 @@ static void show_progress(void *context, double done) {
   progress_show(context, done, "image");
 }
 
-/* What the time allowed. */
-static void tell_report(const struct arguments *arguments, const struct image_report *report) {
-  if (!(arguments->time_limit > 0)) return;
-  if (report->late)
-    cli_note("%s: note: %g s do not suffice for one pass; this is the coarsest picture",
-             arguments->files.output, arguments->time_limit);
-  cli_note("%s: note: gathered with tolerances from %.2g to %.2g in %d pass%s; relative error at "
-           "most %.2g",
-           arguments->files.output, report->best_tolerance, report->worst_tolerance, report->passes,
-           report->passes > 1 ? "es" : "", report->error);
+/* When the picture must be there, so that its files are written in time. */
+static double find_end(void *context, int step) {
+  const struct arguments *arguments = context;
+  const int *size = arguments->world.view.size;
+  return arguments->start + arguments->time_limit - leaving -
+         picture_files_seconds(&arguments->files, size[0], size[1], step);
 }
 
-static enum result render(const struct arguments *arguments, struct picture *picture,
-                          struct stats *stats, struct error *error) {
+/* Says at once where there is not the time. */
+static void tell_least(struct arguments *arguments) {
+  const int *size = arguments->world.view.size;
+  double left = find_end(arguments, image_first_step(size[0], size[1])) - progress_now() - leaving;
+  if (left < 0)
+    cli_note("%s: note: %g s do not suffice; the least here is about %.2g s, for the coarsest "
+             "picture",
+             arguments->files.output, arguments->time_limit, arguments->time_limit - left);
+}
+
+/* What the time allowed. */
+static void tell_report(const struct arguments *arguments, const struct image_report *report) {
+  char error[64] = "errors are not predicted", shared[64] = "";
+  if (!(arguments->time_limit > 0)) return;
+  if (isfinite(report->error))
+    snprintf(error, sizeof error, "relative error at most %.2g", report->error);
+  if (report->worst_step > 1)
+    snprintf(shared, sizeof shared, ", but where up to %d x %d pixels share a ray",
+             report->worst_step, report->worst_step);
+  cli_note("%s: note: gathered with tolerances from %.2g to %.2g in %d pass%s; %s%s",
+           arguments->files.output, report->best_tolerance, report->worst_tolerance, report->passes,
+           report->passes > 1 ? "es" : "", error, shared);
+}
+
+static enum result render(struct arguments *arguments, struct picture *picture, struct stats *stats,
+                          struct error *error) {
   const struct world *world = &arguments->world;
   const bool shadows = !arguments->no_shadows;
   struct progress progress;
@@ -150,8 +188,10 @@ static enum result render(const struct arguments *arguments, struct picture *pic
       .threads = world->options.threads,
       .progress = show_progress,
       .progress_context = &progress,
-      .until = arguments->time_limit > 0 ? arguments->start + arguments->time_limit : 0};
+      .until = arguments->time_limit > 0 ? find_end : NULL,
+      .until_context = arguments};
   struct image_report report;
+  if (settings.until) tell_least(arguments);
   progress_start(&progress, cli_quiet(), 0);
   enum result result = image_render(&settings, picture, &report, error);
   progress_end(&progress);
@@ -196,6 +236,6 @@ int cmd_image(int argc, char **argv) {
                                                {&cli_argp, 0, NULL, 0},
                                                {0}};
   static const struct argp argp = {options_list, parse, "MESH", help_text, children, NULL, NULL};
-  struct arguments arguments = {.samples = 1, .start = progress_now()};
+  struct arguments arguments = {.samples = 1, .start = progress_process_start()};
   return cli_run(&argp, argc, argv, run, &arguments);
 }

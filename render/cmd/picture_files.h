@@ -16,6 +16,10 @@ struct picture_files {
 /* Does the path have a name and this ending? */
 bool picture_files_end(const char *path, const char *ending);
 
+/* Seconds that writing a picture takes whose pixels are the same in blocks of step x step, by
+ * writing a small one, which is not kept, to where the files will be. */
+double picture_files_seconds(const struct picture_files *files, int width, int height, int step);
+
 /* Each whole or not at all. */
 enum result picture_files_write(const struct picture_files *files, const struct picture *picture,
                                 struct error *error);

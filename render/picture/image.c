@@ -7,64 +7,110 @@
 #include "base/progress.h"
 #include "picture/image_part.h"
 
-/* Of the first pass where time is limited. */
+/* Of the first pass where time is limited, and how many rays that has. */
 static const double coarsest_tolerance = 0.3;
+enum { FIRST_RAYS = 200 };
+
+/* Seconds that a thread may gather without a look at the clock. */
+static const double glance = 5e-4;
 
 /* What is known of a tile of the picture. */
 struct tile {
-  int number;
+  int step;
   double error;          /* sum of the layer of errors */
   double relative_error; /* the largest of its receivers' */
   double tolerance;
 };
 
+/* A tile and its place in the order of a pass. */
+struct place {
+  double error;
+  int number;
+};
+
+/* One pass over the picture: a ray for step x step pixels, or samples^2 for each. */
+struct pass {
+  int step, samples;
+  int columns, count; /* of its tiles, which are IMAGE_TILE x step pixels wide */
+  double until;       /* it must end, where time is limited */
+  bool first;         /* it is finished even if it is late */
+  int chunk;          /* receivers from one look at the clock to the next */
+  struct gather_settings gather;
+};
+
 struct image {
   const struct image_settings *settings;
-  struct gather_settings pass;
+  struct pass pass;
   struct picture *picture;
   struct gather **gathers;  /* [threads] */
   struct image_part *parts; /* [threads]: a tile each */
-  struct tile *tiles;       /* in the order of the pass */
-  int columns, count;       /* of tiles */
-  bool first;               /* pass: it is finished even if it is late */
+  int columns, rows;        /* of tiles */
+  struct tile *tiles;       /* [columns x rows] */
+  struct place *order;      /* the same number, of which a pass of larger steps needs fewer */
 };
 
-static void set_tile(const struct image *image, int tile, struct image_part *part) {
-  part->left = tile % image->columns * IMAGE_TILE;
-  part->top = tile / image->columns * IMAGE_TILE;
-  int width = image->picture->width - part->left, height = image->picture->height - part->top;
+static int divide_up(int number, int by) {
+  return number / by + (number % by > 0);
+}
+
+static void set_part(const struct image *image, int number, struct image_part *part) {
+  const struct pass *pass = &image->pass;
+  part->step = pass->step;
+  part->left = number % pass->columns * IMAGE_TILE;
+  part->top = number / pass->columns * IMAGE_TILE;
+  int width = divide_up(image->picture->width, pass->step) - part->left;
+  int height = divide_up(image->picture->height, pass->step) - part->top;
   part->width = width < IMAGE_TILE ? width : IMAGE_TILE;
   part->height = height < IMAGE_TILE ? height : IMAGE_TILE;
 }
 
-static bool time_is_over(const struct image_settings *settings) {
-  return settings->until > 0 && progress_now() >= settings->until;
+static bool time_is_over(const struct image *image) {
+  return image->settings->until && progress_now() >= image->pass.until;
+}
+
+/* Gathers for the part's receivers; *late, and nothing is of use, where time is over before. */
+static enum result gather_part(const struct image *image, struct image_part *part, int count,
+                               int worker, bool *late, struct error *error) {
+  enum result result = RESULT_OK;
+  int chunk = image->pass.chunk;
+  for (int k = 0; k < count && result == RESULT_OK; k += chunk) {
+    *late = !image->pass.first && time_is_over(image);
+    if (*late) break;
+    result = gather_light(image->gathers[worker], part->receivers + k,
+                          count - k < chunk ? count - k : chunk, part->gathered + k, error);
+  }
+  return result;
+}
+
+/* Notes what is known now of all tiles of the picture that this one covers. */
+static void note_tile(const struct image *image, int number, const struct tile *tile) {
+  int step = tile->step;
+  int left = number % image->pass.columns * step, top = number / image->pass.columns * step;
+  for (int y = top; y < top + step && y < image->rows; ++y)
+    for (int x = left; x < left + step && x < image->columns; ++x)
+      image->tiles[(size_t)y * (size_t)image->columns + (size_t)x] = *tile;
 }
 
 static enum result do_tile(void *context, int index, int worker, struct error *error) {
   const struct image *image = context;
   const struct image_settings *settings = image->settings;
-  struct tile *tile = &image->tiles[index];
+  const struct pass *pass = &image->pass;
   struct image_part *part = &image->parts[worker];
-  int samples = settings->samples * settings->samples;
-  double worst = 0;
-  if (!image->first && time_is_over(settings)) return RESULT_OK;
-  set_tile(image, tile->number, part);
+  int number = image->order[index].number, samples = pass->samples * pass->samples;
+  struct tile tile = {.step = pass->step, .tolerance = pass->gather.tolerance};
+  bool late = !pass->first && time_is_over(image);
+  if (late) return RESULT_OK;
+  set_part(image, number, part);
   image_part_clear(part);
   for (int sample = 0; sample < samples; ++sample) {
-    image_part_trace(&settings->shade, settings->samples, sample, 0, part->width * part->height,
-                     part);
+    image_part_trace(&settings->shade, pass->samples, sample, 0, part->width * part->height, part);
     int count = image_part_receivers(part);
-    if (count > 0) {
-      enum result result =
-          gather_light(image->gathers[worker], part->receivers, count, part->gathered, error);
-      if (result != RESULT_OK) return result;
-    }
-    worst = fmax(worst, image_part_add(part));
+    enum result result = gather_part(image, part, count, worker, &late, error);
+    if (result != RESULT_OK || late) return result;
+    tile.relative_error = fmax(tile.relative_error, image_part_add(part));
   }
-  tile->error = image_part_store(part, samples, image->picture);
-  tile->relative_error = worst;
-  tile->tolerance = image->pass.tolerance;
+  tile.error = image_part_store(part, samples, image->picture);
+  note_tile(image, number, &tile);
   return RESULT_OK;
 }
 
@@ -74,21 +120,33 @@ static void show_progress(void *context, double done) {
   if (settings->progress) settings->progress(settings->progress_context, done);
 }
 
+static int by_error(const void *left, const void *right) {
+  const struct place *a = left, *b = right;
+  if (a->error != b->error) return a->error > b->error ? -1 : 1;
+  return (a->number > b->number) - (a->number < b->number);
+}
+
+/* Tiles of the picture itself with the largest errors first. */
+static void set_order(struct image *image) {
+  struct pass *pass = &image->pass;
+  pass->columns = divide_up(image->columns, pass->step);
+  pass->count = pass->columns * divide_up(image->rows, pass->step);
+  for (int k = 0; k < pass->count; ++k)
+    image->order[k] = (struct place){pass->step > 1 ? 0 : image->tiles[k].error, k};
+  if (pass->step == 1) qsort(image->order, (size_t)pass->count, sizeof *image->order, by_error);
+}
+
 /* Renders all tiles, or those that time allows. */
 static enum result run_pass(struct image *image, struct image_report *report, struct error *error) {
   const struct image_settings *settings = image->settings;
-  enum result result = gather_create_all(&image->pass, settings->threads, image->gathers, error);
+  struct gather **gathers = image->gathers;
+  set_order(image);
+  enum result result = gather_create_all(&image->pass.gather, settings->threads, gathers, error);
   if (result == RESULT_OK)
-    result = tiles_run(settings->threads, image->count, do_tile, show_progress, image, error);
-  gather_free_all(image->gathers, settings->threads, &report->counts);
+    result = tiles_run(settings->threads, image->pass.count, do_tile, show_progress, image, error);
+  gather_free_all(gathers, settings->threads, &report->counts);
   ++report->passes;
   return result;
-}
-
-static int by_error(const void *left, const void *right) {
-  const struct tile *a = left, *b = right;
-  if (a->error != b->error) return a->error > b->error ? -1 : 1;
-  return (a->number > b->number) - (a->number < b->number);
 }
 
 /* Shadows no finer than the tolerance calls for: blocks of 1/4 and edges of 1/8 at first. */
@@ -98,49 +156,112 @@ static void coarsen_shadows(struct gather_settings *gather) {
   gather->shadow_grid = (int)fmin(gather->shadow_grid, fmax(4, edge / 4));
 }
 
-/* Passes with ever smaller tolerances; one with that asked for where time does not matter. */
+static double rays_of(const struct picture *picture, int step) {
+  return (double)divide_up(picture->width, step) * divide_up(picture->height, step);
+}
+
+int image_first_step(int width, int height) {
+  const struct picture picture = {.width = width, .height = height};
+  int step = 1;
+  while (rays_of(&picture, step) > FIRST_RAYS) step *= 2;
+  return step;
+}
+
+static void set_end(struct image *image) {
+  const struct image_settings *settings = image->settings;
+  if (settings->until)
+    image->pass.until = settings->until(settings->until_context, image->pass.step);
+}
+
+static void set_tolerance(struct image *image, double tolerance) {
+  struct gather_settings *gather = &image->pass.gather;
+  *gather = image->settings->gather;
+  if (tolerance <= gather->tolerance) return;
+  gather->tolerance = tolerance;
+  coarsen_shadows(gather);
+}
+
+/* The first pass: all there is to do, where time does not matter. */
+static void set_first(struct image *image) {
+  const struct image_settings *settings = image->settings;
+  const struct picture *picture = image->picture;
+  bool limited = settings->until != NULL;
+  bool dial = gather_methods[settings->gather.method].dial == METHOD_BY_TOLERANCE;
+  image->pass =
+      (struct pass){.step = limited ? image_first_step(picture->width, picture->height) : 1,
+                    .samples = limited ? 1 : settings->samples,
+                    .first = true,
+                    .chunk = IMAGE_TILE * IMAGE_TILE};
+  set_tolerance(image, limited && dial ? coarsest_tolerance : 0);
+  set_end(image);
+}
+
+/* The next pass, after one that took so many seconds; false where all is done. More rays, as many
+ * at once as surely find the time; then all rays of a pixel; then smaller tolerances. */
+static bool set_next(struct image *image, double seconds) {
+  const struct image_settings *settings = image->settings;
+  struct pass *pass = &image->pass;
+  double rays = rays_of(image->picture, pass->step) * pass->samples * pass->samples;
+  double each = seconds / rays, left = pass->until - progress_now();
+  double tolerance = pass->gather.tolerance;
+  pass->first = false;
+  pass->chunk = (int)fmin(fmax(glance / (each * settings->threads), 1), IMAGE_TILE * IMAGE_TILE);
+  if (pass->step > 1) {
+    pass->step /= 2;
+    while (pass->step > 1 && 2 * each * rays_of(image->picture, pass->step / 2) < left)
+      pass->step /= 2;
+  } else if (pass->samples < settings->samples) {
+    pass->samples = settings->samples;
+  } else if (tolerance > settings->gather.tolerance) {
+    set_tolerance(image, tolerance / 10);
+  } else {
+    return false;
+  }
+  set_end(image);
+  return true;
+}
+
 static enum result run_passes(struct image *image, struct image_report *report,
                               struct error *error) {
-  const struct image_settings *settings = image->settings;
-  double wanted = settings->gather.tolerance, tolerance = wanted;
-  if (settings->until > 0 && settings->gather.method == GATHER_AUTO)
-    tolerance = fmax(coarsest_tolerance, wanted);
-  for (image->first = true;; image->first = false) {
-    image->pass = settings->gather;
-    image->pass.tolerance = tolerance;
-    if (tolerance > wanted) coarsen_shadows(&image->pass);
+  double start;
+  set_first(image);
+  do {
+    start = progress_now();
     enum result result = run_pass(image, report, error);
     if (result != RESULT_OK) return result;
-    if (image->first) report->late = time_is_over(settings);
-    if (tolerance <= wanted || time_is_over(settings)) return RESULT_OK;
-    qsort(image->tiles, (size_t)image->count, sizeof *image->tiles, by_error);
-    tolerance = fmax(tolerance / 10, wanted);
-  }
+  } while (image->settings->until && set_next(image, progress_now() - start) &&
+           !time_is_over(image));
+  return RESULT_OK;
 }
 
 static void sum_up(const struct image *image, struct image_report *report) {
   report->best_tolerance = INFINITY;
-  for (int k = 0; k < image->count; ++k) {
-    report->error = fmax(report->error, image->tiles[k].relative_error);
-    report->worst_tolerance = fmax(report->worst_tolerance, image->tiles[k].tolerance);
-    report->best_tolerance = fmin(report->best_tolerance, image->tiles[k].tolerance);
+  report->worst_step = 1;
+  for (int k = 0; k < image->columns * image->rows; ++k) {
+    const struct tile *tile = &image->tiles[k];
+    report->error = fmax(report->error, tile->relative_error);
+    report->worst_tolerance = fmax(report->worst_tolerance, tile->tolerance);
+    report->best_tolerance = fmin(report->best_tolerance, tile->tolerance);
+    if (tile->step > report->worst_step) report->worst_step = tile->step;
   }
-  report->counts.error = report->error;
+  report->counts.error = report->worst_step > 1 ? INFINITY : report->error;
 }
 
 /* By the CPU: tile by tile. */
 static enum result render_tiles(const struct image_settings *settings, struct picture *picture,
                                 struct image_report *report, struct error *error) {
-  int columns = (picture->width + IMAGE_TILE - 1) / IMAGE_TILE;
-  int rows = (picture->height + IMAGE_TILE - 1) / IMAGE_TILE;
-  struct image image = {
-      .settings = settings, .picture = picture, .columns = columns, .count = columns * rows};
+  struct image image = {.settings = settings,
+                        .picture = picture,
+                        .columns = divide_up(picture->width, IMAGE_TILE),
+                        .rows = divide_up(picture->height, IMAGE_TILE)};
+  size_t tiles = (size_t)image.columns * (size_t)image.rows;
   enum result result = RESULT_OK;
   image.gathers = calloc((size_t)settings->threads, sizeof *image.gathers);
   image.parts = calloc((size_t)settings->threads, sizeof *image.parts);
-  image.tiles = calloc((size_t)image.count, sizeof *image.tiles);
-  if (!image.gathers || !image.parts || !image.tiles) result = result_no_memory(error);
-  for (int k = 0; result == RESULT_OK && k < image.count; ++k) image.tiles[k].number = k;
+  image.tiles = calloc(tiles, sizeof *image.tiles);
+  image.order = calloc(tiles, sizeof *image.order);
+  if (!image.gathers || !image.parts || !image.tiles || !image.order)
+    result = result_no_memory(error);
   for (int k = 0; result == RESULT_OK && k < settings->threads; ++k)
     result = image_part_create(IMAGE_TILE * IMAGE_TILE, &image.parts[k], error);
   if (result == RESULT_OK) result = run_passes(&image, report, error);
@@ -149,6 +270,7 @@ static enum result render_tiles(const struct image_settings *settings, struct pi
   free(image.gathers);
   free(image.parts);
   free(image.tiles);
+  free(image.order);
   return result;
 }
 

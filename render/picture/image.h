@@ -24,24 +24,31 @@ struct image_settings {
   int threads;                      /* >= 1 */
   tiles_progress *progress;         /* may be NULL */
   void *progress_context;
-  double until; /* on progress_now's clock; 0: as long as it takes */
+  /* When a picture in which up to step x step pixels share a ray must be there, on progress_now's
+   * clock; NULL: whenever it is. */
+  double (*until)(void *context, int step);
+  void *until_context;
 };
 
 /* What came out. */
 struct image_report {
   struct gather_counts counts;
   int passes;
-  double error;                           /* the largest predicted relative error in the picture */
+  int worst_step; /* pixels of up to step x step share a ray; 1: none do */
+  double error; /* the largest predicted relative error of rays, whether pixels share them or not */
   double worst_tolerance, best_tolerance; /* with which its tiles were gathered */
-  bool late;                              /* the first pass alone took longer than allowed */
 };
+
+/* With a time to end, the first pass has a ray for step x step pixels. */
+int image_first_step(int width, int height);
 
 /* Allocates and fills the picture and its errors; picture_free frees it.
  *
- * With a time to end, the whole picture is first made with a tolerance of 0.3, then tile by
- * tile, those with the largest errors first, with a tenth of that, and so on until the time
- * is over or the tolerance asked for is reached everywhere. The first pass is always finished.
- * Edges of shadows follow: to about half the tolerance of a pass. */
+ * With a time to end, the whole picture is first made with a few hundred rays and a tolerance of
+ * 0.3, then with ever more rays, one a pixel and then all; then tile by tile, those with the
+ * largest errors first, with a tenth of that tolerance, and so on until the time is over or the
+ * tolerance asked for is reached everywhere. The first pass is always finished. Edges of shadows
+ * follow: to about half the tolerance of a pass. */
 enum result image_render(const struct image_settings *settings, struct picture *picture,
                          struct image_report *report, struct error *error);
 

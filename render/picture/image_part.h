@@ -1,5 +1,5 @@
-/* image_part.h - a rectangle of a picture's pixels, one ray a pixel at a time: what the rays
- * meet, and the sums of what comes along them. */
+/* image_part.h - a rectangle of a picture's pixels, or of one that is smaller by a whole step, one
+ * ray a pixel at a time: what the rays meet, and the sums of what comes along them. */
 #ifndef IMAGE_PART_H
 #define IMAGE_PART_H
 
@@ -7,10 +7,11 @@
 #include "picture/shade.h"
 
 struct image_part {
-  int left, top, width, height; /* pixels; set by the caller */
-  struct shade_hit *hits;       /* these and all below: of each pixel, row by row; owned */
-  struct receiver *receivers;   /* of those that are lit */
-  struct gathered *gathered;    /* by the receivers */
+  int left, top, width, height; /* pixels of the part; set by the caller */
+  int step; /* a pixel of the part stands for step x step of the picture; 1, unless set */
+  struct shade_hit *hits;     /* these and all below: of each pixel, row by row; owned */
+  struct receiver *receivers; /* of those that are lit */
+  struct gathered *gathered;  /* by the receivers */
   struct image_part_sum {
     double rgb[3], error[3];
   } * sums;
@@ -34,7 +35,8 @@ int image_part_receivers(struct image_part *part);
  * that is predicted. */
 double image_part_add(struct image_part *part);
 
-/* Puts the means over so many rays a pixel into the picture. Returns the sum of the errors. */
+/* Puts the means over so many rays a pixel into the picture, with an unknown error where pixels
+ * share them. Returns the sum of the errors. */
 double image_part_store(const struct image_part *part, int samples, struct picture *picture);
 
 #endif

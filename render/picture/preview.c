@@ -4,49 +4,68 @@
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/output.h"
-
 static const double percentile = 0.99, brightness = 0.9;
 
-static int by_value(const void *a, const void *b) {
-  float x = *(const float *)a, y = *(const float *)b;
-  return (x > y) - (x < y);
+/* The number of that rank, from 0, among floats that are not negative: these are in the order of
+ * their bits, of which the upper half is found first. */
+static float find_rank(const float *numbers, size_t count, size_t rank, size_t *tally) {
+  enum { HALF = 1 << 16 };
+  uint32_t upper = 0, bits;
+  for (int round = 0; round < 2; ++round) {
+    memset(tally, 0, HALF * sizeof *tally);
+    for (size_t k = 0; k < count; ++k) {
+      memcpy(&bits, &numbers[k], sizeof bits);
+      if (round == 0 || bits >> 16 == upper) ++tally[round == 0 ? bits >> 16 : bits % HALF];
+    }
+    uint32_t at = 0;
+    while (rank >= tally[at]) rank -= tally[at++];
+    upper = round == 0 ? at : upper << 16 | at;
+  }
+  float number;
+  memcpy(&number, &upper, sizeof number);
+  return number;
 }
 
 enum result preview_exposure(const struct picture *picture, double *white, struct error *error) {
   size_t count = (size_t)picture->width * (size_t)picture->height;
-  float *brightest = malloc(count * sizeof *brightest);
-  if (!brightest) return result_no_memory(error);
-  for (size_t k = 0; k < count; ++k) {
+  float *brightest = malloc(count * sizeof *brightest), most = 0;
+  size_t *tally = malloc((1 << 16) * sizeof *tally);
+  enum result result = brightest && tally ? RESULT_OK : result_no_memory(error);
+  for (size_t k = 0; k < count && result == RESULT_OK; ++k) {
     const float *rgb = picture->rgb + 3 * k;
-    float most = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2]));
-    brightest[k] = isfinite(most) ? most : 0;
+    float bright = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2]));
+    brightest[k] = isfinite(bright) && bright > 0 ? bright : 0;
+    most = fmaxf(most, brightest[k]);
   }
-  qsort(brightest, count, sizeof *brightest, by_value);
-  double bright = brightest[(size_t)(percentile * (double)(count - 1))];
-  if (!(bright > 0)) bright = brightest[count - 1];
-  *white = bright > 0 ? bright / brightness : 1;
+  if (result == RESULT_OK) {
+    size_t rank = (size_t)(percentile * (double)(count - 1));
+    double bright = find_rank(brightest, count, rank, tally);
+    if (!(bright > 0)) bright = most;
+    *white = bright > 0 ? bright / brightness : 1;
+  }
   free(brightest);
-  return RESULT_OK;
+  free(tally);
+  return result;
 }
 
 /* Where libpng writes to, and its error. */
 struct sink {
-  struct output output;
+  struct output *output;
   uint64_t written;
+  bool whole; /* all of it is written */
   char trouble[160];
   jmp_buf out; /* libpng longjmps here on error */
 };
 
 static void take_bytes(png_structp png, png_bytep bytes, size_t count) {
   struct sink *sink = png_get_io_ptr(png);
-  if (output_write(&sink->output, bytes, count, sink->written) != 0)
-    png_error(png, strerror(errno));
+  if (output_write(sink->output, bytes, count, sink->written) != 0) png_error(png, strerror(errno));
   sink->written += count;
 }
 
@@ -102,30 +121,39 @@ static void put_picture(png_structp png, png_infop info, const struct picture *p
   png_write_end(png, info);
 }
 
-enum result preview_write(const char *path, const struct picture *picture, double white,
-                          const char *comment, struct error *error) {
+enum result preview_put(struct output *output, const struct picture *picture, double white,
+                        const char *comment, struct error *error) {
   struct sink *sink = calloc(1, sizeof *sink);
   png_byte *row = malloc(3 * (size_t)picture->width);
   png_structp png = NULL;
   png_infop info = NULL;
-  enum result result = RESULT_OK;
   if (sink && row)
     png = png_create_write_struct(PNG_LIBPNG_VER_STRING, sink, take_error, ignore_warning);
   if (png) info = png_create_info_struct(png);
-  if (!info) result = result_fail(error, RESULT_MEMORY, "%s: out of memory", path);
-  if (result == RESULT_OK) result = output_begin(&sink->output, path, error);
-  if (result == RESULT_OK) {
-    if (setjmp(sink->out) == 0) {
-      png_set_write_fn(png, sink, take_bytes, flush_bytes);
-      put_picture(png, info, picture, white, comment, row);
-      result = output_commit(&sink->output, error);
-    } else {
-      result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, sink->trouble);
-    }
+  if (info) sink->output = output;
+  if (info && setjmp(sink->out) == 0) {
+    png_set_write_fn(png, sink, take_bytes, flush_bytes);
+    put_picture(png, info, picture, white, comment, row);
+    sink->whole = true;
   }
-  if (sink) output_abandon(&sink->output);
+  enum result result = RESULT_OK;
+  if (!info)
+    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", output->target);
+  else if (!sink->whole)
+    result =
+        result_fail(error, RESULT_IO, "%s: cannot be written: %s", output->target, sink->trouble);
   png_destroy_write_struct(png ? &png : NULL, info ? &info : NULL);
   free(row);
   free(sink);
+  return result;
+}
+
+enum result preview_write(const char *path, const struct picture *picture, double white,
+                          const char *comment, struct error *error) {
+  struct output output = {0};
+  enum result result = output_begin(&output, path, error);
+  if (result == RESULT_OK) result = preview_put(&output, picture, white, comment, error);
+  if (result == RESULT_OK) result = output_commit(&output, error);
+  output_abandon(&output);
   return result;
 }
