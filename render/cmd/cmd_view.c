@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "cmd/commands.h"
 #include "cmd/world.h"
+#include "shadow/occlusion.h"
 #include "viewer/viewer_camera.h"
 #include "viewer/viewer_loop.h"
 
@@ -53,8 +54,10 @@ static enum result run(void *input, struct error *error) {
   enum result result = world_load_lights(world, NULL, 0, error);
   if (result == RESULT_OK) result = world_prepare(world, 0, error);
   if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
+  if (result == RESULT_OK) result = occlusion_create(&world->scene, &world->occlusion, error);
   if (result == RESULT_OK) {
     struct viewer_world shown = {.scene = &world->scene,
+                                 .occlusion = world->occlusion,
                                  .lights = world->lights,
                                  .light_count = world->light_count,
                                  .prepared = &world->prepared,

@@ -149,6 +149,7 @@ static enum result draw_frame(struct viewer_loop *loop, struct error *error) {
   enum result result = follow(loop, error);
   bool complete = loop->picture.done >= 1;
   if (result == RESULT_OK) result = refine(loop, error);
+  if (result == RESULT_OK && complete) result = viewer_picture_check(&loop->picture, error);
   if (result == RESULT_OK) result = expose(loop, error);
   if (result != RESULT_OK) return result;
   save_if_asked(loop);
@@ -171,11 +172,17 @@ static void press_key(struct viewer_loop *loop) {
     viewer_state_key(&loop->state, key, shift);
 }
 
+/* Is there nothing to do before something happens? */
+static bool is_still(const struct viewer_loop *loop) {
+  const struct viewer_picture *picture = &loop->picture;
+  return picture->done >= 1 && picture->checked == VIEWER_PICTURE_ROWS && !loop->keys;
+}
+
 static enum result look(struct viewer_loop *loop, struct error *error) {
   enum result result = RESULT_OK;
   while (result == RESULT_OK && !loop->state.quit) {
     result = draw_frame(loop, error);
-    viewer_window_events(loop->window, loop->picture.done >= 1 && !loop->keys);
+    viewer_window_events(loop->window, is_still(loop));
     press_key(loop);
   }
   if (result == RESULT_OK && loop->unsaved.text[0])

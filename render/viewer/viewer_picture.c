@@ -22,6 +22,13 @@ enum result viewer_picture_create(const struct viewer_world *world, const struct
   return result;
 }
 
+static void forget_check(struct viewer_picture *picture) {
+  picture_free(&picture->taken);
+  picture->checked = 0;
+  picture->squares[0] = picture->squares[1] = 0;
+  picture->exact = INFINITY;
+}
+
 static void free_receivers(struct viewer_picture *picture) {
   viewer_lamps_free(&picture->lamps);
   if (picture->surfaces.target) gl_surfaces_free(&picture->surfaces);
@@ -29,6 +36,7 @@ static void free_receivers(struct viewer_picture *picture) {
 }
 
 void viewer_picture_free(struct viewer_picture *picture) {
+  forget_check(picture);
   free_receivers(picture);
   gl_sum_free(&picture->sum);
   gl_show_free(&picture->show);
@@ -108,6 +116,7 @@ void viewer_picture_start(struct viewer_picture *picture, const struct camera *c
   picture->camera = *camera;
   picture->done = picture->kept = 0;
   picture->change = picture->error = INFINITY;
+  forget_check(picture);
   gl_raster_draw(&picture->raster, camera, picture->sum.origin, world->background,
                  &picture->receivers, &picture->surfaces);
   gl_sum_clear(&picture->receivers);

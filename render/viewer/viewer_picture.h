@@ -5,6 +5,7 @@
 
 #include "gather/gather.h"
 #include "gl/gl_show.h"
+#include "picture/shade.h"
 #include "viewer/viewer_lamps.h"
 
 /* How the light is summed. */
@@ -16,6 +17,7 @@ struct viewer_sum {
 
 struct viewer_world {
   const struct scene *scene;
+  const struct occlusion *occlusion; /* of the scene */
   struct light *lights;
   int light_count;
   struct gather_prepared *prepared; /* of method gl */
@@ -42,8 +44,16 @@ struct viewer_picture {
   double change;         /* relative RMS, since about half as many views; INFINITY: not known */
   struct viewer_sum how;
   bool full;    /* all views of level 0 have been seen, with all else as it is */
-  double error; /* relative RMS against that, last told with `change`; INFINITY: not known */
+  double error; /* relative RMS against that, last told with `change`; INFINITY: not known. Shadow
+                   maps are the same in both, so that their errors are not in it */
+  /* Of viewer_picture_check: */
+  struct picture taken; /* the picture that is checked; owned */
+  int checked;          /* rows of pixels, of VIEWER_PICTURE_ROWS */
+  double squares[2];    /* sums: of errors, of exact radiances */
+  double exact;         /* relative RMS against exact sums; INFINITY: not known */
 };
+
+enum { VIEWER_PICTURE_ROWS = 16 };
 
 /* The world outlives the picture. Sizes are those of the frame buffer. */
 enum result viewer_picture_create(const struct viewer_world *world, const struct viewer_sum *how,
@@ -65,5 +75,9 @@ void viewer_picture_start(struct viewer_picture *picture, const struct camera *c
 
 /* Adds so large a share of the views, up to all; the picture shows the estimate of the whole. */
 enum result viewer_picture_add(struct viewer_picture *picture, double share, struct error *error);
+
+/* Once all views are in: compares one more row of 16 pixels with exact sums and, if the picture has
+ * shadows, shadow rays. After 16 of them `exact` is the error, of views, shadow maps and edges. */
+enum result viewer_picture_check(struct viewer_picture *picture, struct error *error);
 
 #endif

@@ -54,12 +54,21 @@ static void say_views(const struct viewer_picture *picture, const struct viewer_
   double in = picture->done * (double)picture->views;
   say(writer, "views: %d x %d of %d x %d, %.0f of %lld are in", used[0].near_count,
       used[1].near_count, all[0].near_count, all[1].near_count, in, (long long)picture->views);
-  if (isfinite(picture->error))
-    say(writer, "error: %.2g %% against all views", 100 * picture->error);
+}
+
+/* What is told before all is known leaves shadow maps out. */
+static void say_error(const struct viewer_picture *picture, const struct viewer_state *state,
+                      struct writer *writer) {
+  const char *shadows = state->sum.shadows ? "with" : "without";
+  if (isfinite(picture->exact))
+    say(writer, "error: %.2g %% %s shadows, by 256 pixels", 100 * picture->exact, shadows);
   else if (picture->done >= 1)
-    say(writer, "error: not known; V V ... shows more views");
+    say(writer, "error: being measured");
+  else if (isfinite(picture->error))
+    say(writer, "error: %.2g %% against all views, without shadows", 100 * picture->error);
   else if (isfinite(picture->change))
-    say(writer, "error: about %.2g %% (change since half as many)", 100 * picture->change);
+    say(writer, "error: about %.2g %% without shadows (change since half as many views)",
+        100 * picture->change);
   else
     say(writer, "error: not known yet");
 }
@@ -97,6 +106,7 @@ void viewer_status_write(const struct viewer_picture *picture, const struct view
     say(&writer, "%.1f ms a frame, %d x %d; h: help", 1e3 * seconds, text->width, text->height);
     say_selected(picture, state, &writer);
     say_views(picture, state, &writer);
+    say_error(picture, state, &writer);
     say_shadows(picture, state, &writer);
     say_skipped(picture, state, &writer);
     say(&writer, "white: %.3g", white);

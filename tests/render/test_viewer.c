@@ -119,6 +119,7 @@ static int make_all(void **state) {
     return 1;
   if (occlusion_create(&all.scene, &all.occlusion, &error) != RESULT_OK) return 1;
   all.world = (struct viewer_world){.scene = &all.scene,
+                                    .occlusion = all.occlusion,
                                     .lights = all.lights,
                                     .light_count = LIGHTS,
                                     .prepared = &all.prepared,
@@ -173,8 +174,8 @@ static struct picture take_anew(const struct viewer_sum *how) {
   return taken;
 }
 
-/* By camera rays and sums of the CPU, without shadows. */
-static struct picture trace(void) {
+/* By camera rays and sums of the CPU. */
+static struct picture trace(enum gather_method method, bool shadows) {
   struct error error = {{0}};
   struct picture picture;
   struct image_report report;
@@ -187,8 +188,11 @@ static struct picture trace(void) {
                                               .height = HEIGHT},
                                     .gather = {.lights = all.lights,
                                                .light_count = LIGHTS,
-                                               .method = GATHER_VIEWS,
-                                               .tolerance = 0.01},
+                                               .method = method,
+                                               .tolerance = 0.003,
+                                               .occlusion = shadows ? all.occlusion : NULL,
+                                               .shadow_grid = 16,
+                                               .shadow_edge = 256},
                                     .samples = 1,
                                     .threads = 2};
   memcpy(settings.shade.background, all.world.background, sizeof all.world.background);
@@ -233,7 +237,7 @@ static void expect_same(struct picture a, struct picture b, double tolerance, in
 TEST(shows_what_camera_rays_see) {
   struct viewer_picture picture;
   make_picture(&whole, &picture);
-  expect_same(take(&picture, 1), trace(), 3e-4, 4);
+  expect_same(take(&picture, 1), trace(GATHER_VIEWS, false), 3e-4, 4);
   assert_true(picture.lamps.any);
   viewer_picture_free(&picture);
 }
@@ -282,6 +286,30 @@ TEST(a_part_estimates_the_whole) {
   viewer_picture_free(&picture);
 }
 
+/* Of views and of coarse shadow maps; against the reference, at all pixels. Pixels at edges of
+ * surfaces, which differ from those of camera rays, are in both. */
+TEST(the_error_counts_shadows) {
+  static const struct viewer_sum sums[] = {{0, false, 1}, {0, true, 1}, {2, true, 1}};
+  for (int k = 0; k < 3; ++k) {
+    struct viewer_picture picture;
+    struct error error;
+    int off;
+    make_picture(&sums[k], &picture);
+    struct picture shown = take(&picture, 1);
+    struct picture exact = trace(GATHER_REFERENCE, sums[k].shadows);
+    assert_true(isinf(picture.exact));
+    for (int row = 0; row < VIEWER_PICTURE_ROWS; ++row)
+      assert_int_equal(viewer_picture_check(&picture, &error), RESULT_OK);
+    double right = differ(&shown, &exact, INFINITY, &off);
+    print_message("# %.4f off, told %.4f, against all views %.4f\n", right, picture.exact,
+                  picture.error);
+    assert_true(picture.exact > right / 2 && picture.exact < 2 * right);
+    picture_free(&shown);
+    picture_free(&exact);
+    viewer_picture_free(&picture);
+  }
+}
+
 /* Turned, moved and seen from elsewhere, then back; the shadow maps go along. */
 TEST(lights_move) {
   static const struct viewer_sum sum = {.level = 1, .shadows = true, .groups = 2};
@@ -321,7 +349,7 @@ TEST(pages_behind_are_skipped) {
   assert_true(viewer_picture_move(&picture, 0, away));
   assert_int_equal(picture.behind, 29);
   uint64_t views = picture.sum.views;
-  expect_same(take(&picture, 1), trace(), 3e-4, 4);
+  expect_same(take(&picture, 1), trace(GATHER_VIEWS, false), 3e-4, 4);
   assert_int_equal(picture.sum.views - views, 7);
   assert_true(viewer_picture_move(&picture, 0, before));
   viewer_picture_free(&picture);
