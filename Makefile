@@ -125,7 +125,7 @@ MAKE_FILES := bakeslab/canned.mk
 DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
 dest := $(DESTDIR)$(prefix)
 
-install: all $(LIB_FILES) $(MAN_PAGES) ## install below DESTDIR and prefix
+install: all $(LIB_FILES) $(MAN_PAGES) $(COMPLETIONS) ## install below DESTDIR and prefix
 	$(Q)for f in $(BIN); do install -D -m 755 $$f $(dest)/bin/$${f##*/} || exit 1; done
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
@@ -134,10 +134,11 @@ install: all $(LIB_FILES) $(MAN_PAGES) ## install below DESTDIR and prefix
 	$(Q)for f in $(LIB_FILES); do install -D -m 644 $$f $(dest)/lib/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done
 	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done
-	@echo 'installed bin/bakeslab, bin/renderslab, lib/canned, share/canned, share/man and share/doc/canned below $(dest)'
+	$(Q)for f in $(COMPLETIONS); do install -D -m 644 $$f $(dest)/share/bash-completion/completions/$${f##*/} || exit 1; done
+	@echo 'installed bin/bakeslab, bin/renderslab, lib/canned, share/canned, share/man, share/bash-completion and share/doc/canned below $(dest)'
 
 uninstall: ## remove what install put there
-	$(Q)rm -f $(BIN:$(B)/%=$(dest)/%) $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
+	$(Q)rm -f $(BIN:$(B)/%=$(dest)/%) $(COMPLETIONS:$(B)/%=$(dest)/share/bash-completion/%) $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
 	$(Q)rm -rf $(dest)/share/canned $(dest)/share/doc/canned $(dest)/lib/canned
 
 clean: ## remove everything that was built

@@ -29,6 +29,14 @@ $(BAKE_BIN): $(B)/bakeslab/main.o $(B)/libbake.a $(B)/libslab.a
 BAKE_PAGES := $(B)/man/bakeslab.1 $(patsubst bakeslab/cmd/cmd_%.c,$(B)/man/bakeslab-%.1,$(wildcard bakeslab/cmd/cmd_*.c))
 MAN_PAGES := $(BAKE_PAGES) $(B)/man/light-slab.5
 
+# For bash: the commands of both programs, their options and what these take, from --help too.
+COMPLETIONS := $(BIN:$(B)/bin/%=$(B)/completions/%)
+
+$(COMPLETIONS): $(B)/completions/%: bakeslab/cli/completion.sh $(B)/bin/%
+	@mkdir -p $(@D)
+	$(call say,BASH,$@)
+	$(Q)sh $^ >$@
+
 DATE = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || date +%s))
 
 # A page of section 1, of the program that it depends on.

@@ -17,7 +17,7 @@ static const struct cli_program bakeslab = {
     .name = "bakeslab",
     .summary = "Make, inspect and convert light slabs: bake a lamp once, reuse its light anywhere.",
     .commands = commands,
-    .examples = "  bakeslab bake lamps/parabolic.pov -o lamp.tif\n"
+    .examples = "  bakeslab bake parabolic.pov -o lamp.tif\n"
                 "  bakeslab info lamp.tif\n"
                 "  bakeslab include lamp.tif -o lamp.inc\n",
     .exit_status = "0 done, 1 failed, 2 usage; diff: 0 same, 1 differ, 2 trouble",

@@ -26,16 +26,26 @@ case $page in
   ;;
 esac
 
-# help2man runs PROGRAM --help: give it one for this page. It joins lines into
-# paragraphs, so examples get a blank line each.
+# help2man runs PROGRAM --help: give it one for this page. It joins lines into paragraphs, so
+# examples, which people paste, go in as they are.
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+# shellcheck disable=SC2086 # no argument, or one
+"$program" $argument --help >"$folder/help"
 cat >"$folder/$page" <<END
 #!/bin/sh
-"$program" $argument "\$@" | sed '/^Examples*:/,/^[^ ]/ s/^  .*/&\n/'
+"$program" $argument "\$@" | sed '/^Examples/,/^\$/d'
 END
 chmod +x "$folder/$page"
-printf '[see also]\n%s\n' "$see" >"$folder/include"
+{
+  if grep -q '^Examples' "$folder/help"; then
+    sed -n 's/^Examples\(, \(.*\)\)*:$/[examples]\n\2\n.nf/p' "$folder/help" | grep .
+    sed -n '/^Examples/,/^$/ s/^  //p' "$folder/help" |
+      sed "s/[\\\\]/\\\\e/g; s/-/\\\\-/g; s/'/\\\\(aq/g; s/\^/\\\\(ha/g; s/\`/\\\\(ga/g; s/~/\\\\(ti/g; s/^\./\\\\\&./"
+    echo .fi
+  fi
+  printf '[see also]\n%s\n' "$see"
+} >"$folder/include"
 
 help2man --no-info --section=1 --name="$summary" --version-string="$version" \
   --source="Canned light sources $version" --manual='Canned light sources' \

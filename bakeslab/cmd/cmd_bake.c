@@ -134,7 +134,8 @@ static const char doc[] =
     "  bakeslab bake parabolic.pov -o parabolic.tif\n"
     "  bakeslab bake lamp.pov -o draft.tif --uv 8 --st 32 --rays 4 --effects none\n"
     "  bakeslab bake lamp.pov -o fine.tif --st 128 --rays 64 --jobs 8\n"
-    "  bakeslab bake lamp.pov -o lamp.tif --effects probe --window auto --tolerance 0.02\n"
+    "  bakeslab bake lamp.pov -o lamp.tif --effects probe --window auto \\\n"
+    "    --tolerance 0.02\n"
     "  for k in 1 2 3 4; do bakeslab bake lamp.pov -o big.tif --shard $k/4 & done\n"
     "  wait; bakeslab bake lamp.pov -o big.tif\n";
 

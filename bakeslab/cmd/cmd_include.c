@@ -39,8 +39,10 @@ static const char doc[] =
     "  bakeslab include desk_lamp.tif -o desk_lamp.inc\n"
     "  bakeslab include desk_lamp.tif -o small.inc --lights 4\n"
     "  bakeslab include desk_lamp.tif -o fast.inc --mode cluster --lights 16\n"
-    "  bakeslab include desk_lamp.tif -o fast.inc --mode cluster --tolerance 0.05 --distance 4\n"
-    "  bakeslab include street_lamp.tif -o far.inc --mode auto --tolerance 0.02 --distance 40\n"
+    "  bakeslab include desk_lamp.tif -o fast.inc --mode cluster --tolerance 0.05 \\\n"
+    "    --distance 4\n"
+    "  bakeslab include street_lamp.tif -o far.inc --mode auto --tolerance 0.02 \\\n"
+    "    --distance 40\n"
     "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light";
 
 enum { DEFAULT_CLUSTER = 16 };
@@ -60,8 +62,7 @@ struct arguments {
 
 static const struct argp_option options[] = {
     {"output", 'o', "LAMP.inc", 0, "the include to write; its image gets the ending .exr", 0},
-    {"mode", 'm', "MODE", 0, "kind of light: sheet (exact; the default), cluster, point or auto",
-     0},
+    {"mode", 'm', "sheet|cluster|point|auto", 0, "kind of light; sheet, the default, is exact", 0},
     {"lights", 'l', "N", 0,
      "sheet: at most N lights an axis (default: one on each uv sample); cluster: at most N lights "
      "in all, up to 64 a page (default 16)",

@@ -157,7 +157,7 @@ static const char doc[] =
     "with # are skipped."
     "\vExamples:\n"
     "  echo 0 -1 0  0 -1 0 | bakeslab lookup lamp.tif\n"
-    "  bakeslab lookup --page 2 lamp.tif < rays.txt";
+    "  bakeslab lookup --page 1 lamp.tif < rays.txt";
 static const struct argp argp = {options_list, parse, "SLAB", doc, cli_options, NULL, NULL};
 
 int cmd_lookup(int argc, char **argv) {

@@ -224,11 +224,15 @@ static const char help_text[] =
     "Renders an OBJ, glTF or PLY scene lit by light slabs. Meshes are mirrored in z into POV-Ray's "
     "coordinates. A surface shows emission + diffuse E/pi and a highlight, as in POV-Ray; where "
     "the camera looks into a lamp it sees the slab."
-    "\vExamples:\n"
-    "  renderslab image room.obj --light 'lamp.tif at=0,2,0 toward=0,0,0' --camera 'from=0,1,-3 "
-    "at=0,1,0' -o room.exr\n"
-    "  renderslab image room.obj --light lamp.tif --camera 'from=0,1,-3 at=0,1,0 fov=50' -o "
-    "room.exr --samples 3 --preview room.png --stats room.json";
+    "\vExamples, for room.obj of share/canned/include-pov:\n"
+    "  renderslab image room.obj --light 'lamp.tif at=0,190,20' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o room.png\n"
+    "  renderslab image room.obj --light 'lamp.tif at=0,190,20 gain=1,0.8,0.6' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o room.exr \\\n"
+    "    --samples 3 --preview room.png --stats room.json\n"
+    "  renderslab image room.obj --light 'lamp.tif at=0,190,20' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o quick.png \\\n"
+    "    --time-limit 0.5";
 
 int cmd_image(int argc, char **argv) {
   static const struct argp_child children[] = {{&options_argp, 0, NULL, 0},

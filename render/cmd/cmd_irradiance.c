@@ -136,7 +136,9 @@ static enum result run(void *input, struct error *error) {
 }
 
 static const struct argp_option options_list[] = {
-    {"mesh", OPTION_MESH, "FILE", 0, "A mesh (OBJ, glTF, PLY) that casts shadows", 0}, {0}};
+    {"mesh", OPTION_MESH, "MESH", 0,
+     "A mesh (OBJ, glTF, PLY) that casts shadows, as opaque surfaces", 0},
+    {0}};
 
 static const char help_text[] =
     "Reads receivers `px py pz nx ny nz` (position and normal, scene space) from standard input, "
@@ -144,7 +146,7 @@ static const char help_text[] =
     "lines that start with # are skipped. A receiver in the uv plane has the limit of those in "
     "front of it; one behind it gets no light."
     "\vExamples:\n"
-    "  echo 0 0 0  0 1 0 | renderslab irradiance --light 'lamp.tif at=0,2,0'\n"
+    "  echo 0 0 0  0 1 0 | renderslab irradiance --light 'lamp.tif at=0,190,20'\n"
     "  renderslab irradiance --light lamp.tif --method reference < receivers.txt";
 
 int cmd_irradiance(int argc, char **argv) {

@@ -65,10 +65,11 @@ static const char help_text[] =
     "Writes the view that `renderslab image' renders as a POV-Ray 3.7 scene, which lights it by "
     "the include files of the same slabs: NAME.inc beside NAME.tif, made by `bakeslab include'. "
     "The scene's first lines say how to render it."
-    "\vExample:\n"
+    "\vExamples, for room.obj of share/canned/include-pov:\n"
     "  bakeslab include lamp.tif -o lamp.inc\n"
-    "  renderslab pov room.obj --light 'lamp.tif at=0,2,0 toward=0,0,0' --camera 'from=0,1,-3 "
-    "at=0,1,0' -o room.pov";
+    "  renderslab pov room.obj --light 'lamp.tif at=0,190,20' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o view.pov\n"
+    "  povray view.pov +W320 +H240 -D";
 
 int cmd_pov(int argc, char **argv) {
   static const struct argp argp = {options_list, parse, "MESH", help_text, picture_options_children,

@@ -185,11 +185,12 @@ static const char help_text[] =
     "ladder of settings, each several times, and writes a table of time, error against the "
     "reference, micro lights, nodes, shadow rays and memory. Unless --size is given the picture "
     "is 160x120: times are proportional to its pixels, errors stay."
-    "\vExamples:\n"
-    "  renderslab tradeoff room.obj --light 'lamp.tif at=0,2,0' --camera 'from=0,1,-3 at=0,1,0' "
-    "-o room.tsv --plot room.svg\n"
-    "  renderslab tradeoff room.obj --light 'lamp.tif at=0,2,0' --camera 'from=0,1,-3 at=0,1,0' "
-    "-o - --methods auto,reference --finest 1e-3";
+    "\vExamples, for room.obj of share/canned/include-pov:\n"
+    "  renderslab tradeoff room.obj --light 'lamp.tif at=0,190,20' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o room.tsv --plot room.svg\n"
+    "  renderslab tradeoff room.obj --light 'lamp.tif at=0,190,20' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o - \\\n"
+    "    --methods auto,reference --finest 1e-3";
 
 int cmd_tradeoff(int argc, char **argv) {
   static const struct argp argp = {options_list, parse, "MESH", help_text, picture_options_children,

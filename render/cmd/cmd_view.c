@@ -91,9 +91,10 @@ static const char help_text[] =
     "more views, d shadows, - and + the exposure; h shows all keys. s saves view-1.exr, "
     "view-2.exr, "
     "... and prints the `renderslab image' command that makes the same picture; q quits.\n\n"
-    "Examples:\n"
-    "  renderslab view room.obj --light 'lamp.tif at=0,2,0 toward=0,0,0'\n"
-    "  renderslab view room.obj --light lamp.tif --camera 'from=0,1,-3 at=0,1,0' --keys 's q'";
+    "Examples, for room.obj of share/canned/include-pov:\n"
+    "  renderslab view room.obj --light 'lamp.tif at=0,190,20 toward=0,80,0'\n"
+    "  renderslab view room.obj --light 'lamp.tif at=0,190,20' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' --keys 's q'";
 
 int cmd_view(int argc, char **argv) {
   static const struct argp argp = {options_list, parse, "MESH", help_text, picture_options_children,
