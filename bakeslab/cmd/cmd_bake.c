@@ -136,8 +136,8 @@ static const char doc[] =
     "  bakeslab bake lamp.pov -o fine.tif --st 128 --rays 64 --jobs 8\n"
     "  bakeslab bake lamp.pov -o lamp.tif --effects probe --window auto \\\n"
     "    --tolerance 0.02\n"
-    "  for k in 1 2 3 4; do bakeslab bake lamp.pov -o big.tif --shard $k/4 & done\n"
-    "  wait; bakeslab bake lamp.pov -o big.tif\n";
+    "  for k in 1 2 3; do bakeslab bake lamp.pov -o big.tif --shard $k/3 & done; \\\n"
+    "    wait; bakeslab bake lamp.pov -o big.tif\n";
 
 static void parse_shard(struct argp_state *state, const char *text, struct bake_options *bake) {
   int k, n, used = 0;

@@ -63,11 +63,11 @@ static const char doc[] =
     "name in POV-Ray is that of the output, if it is an identifier.\n"
     "\n"
     "Examples:\n"
-    "  bakeslab projector slide.png -o slide.tif --aperture 5 --focus 300 --width 200 \\\n"
-    "    --metres-per-unit 0.01\n"
-    "  bakeslab projector film.jpg -o film.tif --aperture 5x3 --focus 400 --width 300 \\\n"
-    "    --flux 2000 --unit cd/m2 --metres-per-unit 0.01\n"
-    "  renderslab image room.obj --light 'slide.tif at=0,120,-140 toward=0,110,120' \\\n"
+    "  bakeslab projector slide.png -o slide.tif --aperture 5 --focus 300 \\\n"
+    "    --width 200 --metres-per-unit 0.01\n"
+    "  bakeslab projector film.jpg -o film.tif --aperture 5x3 --focus 400 \\\n"
+    "    --width 300 --flux 2000 --unit cd/m2 --metres-per-unit 0.01\n"
+    "  renderslab image room.obj --light 'slide.tif at=0,120,-140 toward=0,99,0' \\\n"
     "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o shown.png";
 
 static void parse_aperture(struct argp_state *state, const char *text, double aperture[2]) {

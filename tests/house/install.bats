@@ -23,6 +23,7 @@ setup_file() {
   for program in bakeslab renderslab; do
     [ -x "$PREFIX/bin/$program" ]
     [ -s "$PREFIX/share/man/man1/$program.1" ]
+    bash -c "source '$PREFIX/share/bash-completion/completions/$program' && complete -p $program"
     for command in $(commands "$PREFIX/bin/$program"); do
       [ -s "$PREFIX/share/man/man1/$program-$command.1" ]
     done
@@ -53,84 +54,6 @@ setup_file() {
   for page in "$PREFIX"/share/man/man?/*; do
     run groff -man -Tutf8 -ww -z "$page"
     [ -z "$output" ]
-  done
-}
-
-# examples PROGRAM COMMAND: those of its help, a line each.
-examples() { "$PREFIX/bin/$1" "$2" --help | sed -n '/^Examples/,/^$/ s/^  //p' | sed ':a; /\\$/ { N; s/\\\n *//; ba }'; }
-
-# runs EXAMPLE: it does its work, or is at it after a while where that is long. `check --strict` may
-# warn; a window waits for keys.
-runs() {
-  local status=0
-  timeout 10 xvfb-run -a -s '-screen 0 800x600x24 -noreset' bash -c "$1" >out 2>&1 || status=$?
-  case $status:$1 in
-    0:* | 1:*--strict* | 124:*' bake '* | 124:*' view '* | 124:*tradeoff* | 124:*auto* ) ;;
-    *) echo "$1: exit status $status" && cat out && return 1 ;;
-  esac
-}
-
-@test "each example of --help runs as it is pasted, and stands so in the man page" {
-  needs xvfb-run jq groff
-  local name program command example
-  cd "$BATS_TEST_TMPDIR"
-  PATH=$PREFIX/bin:$PATH
-  unset CANNED_INCLUDE
-  cp "$PREFIX"/share/canned/include-pov/room.* "$ROOT/lamps/parabolic.pov" .
-  bakeslab bake parabolic.pov -o lamp.tif --uv 4x4 --st 16x16 --rays 1 -q
-  cp parabolic.pov lamp.pov
-  for name in desk_lamp street_lamp IMG_2001 before after logluv; do cp lamp.tif $name.tif; done
-  bakeslab convert lamp.tif -o lamp.exr && cp lamp.exr float.exr
-  mkdir lamps && cp lamp.tif lamps
-  oiiotool --create 64x48 3 --fill:color=0.9,0.5,0.1 32x48+0+0 -o slide.png -o film.jpg
-  echo '0 -1 0  0 -1 0' | tee rays.txt >receivers.txt
-  for program in bakeslab renderslab; do
-    for command in $(commands "$PREFIX/bin/$program"); do
-      groff -man -Tascii -P-c -rLL=200n "$PREFIX/share/man/man1/$program-$command.1" | col -bx >page
-      [ "$(examples "$program" "$command" | wc -l)" -gt 0 ] || { echo "$program $command has none"; false; }
-      while IFS= read -r example; do
-        runs "$example"
-      done < <(examples "$program" "$command")
-      while IFS= read -r example; do
-        grep -qF -- "$example" page || { echo "$program-$command.1 lacks $example"; false; }
-      done < <("$PREFIX/bin/$program" "$command" --help | sed -n '/^Examples/,/^$/ s/^  //p')
-    done
-  done
-}
-
-# complete WORD...: what bash completes the last of them to.
-complete_last() {
-  # shellcheck disable=SC2034 # bash's completion reads them
-  (
-    # shellcheck source=/dev/null
-    source "$PREFIX/share/bash-completion/completions/$1"
-    COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
-    "_$1"
-    echo "${COMPREPLY[@]}"
-  )
-}
-
-@test "bash completes commands, options, their words and kinds of files" {
-  local program command option
-  cd "$BATS_TEST_TMPDIR"
-  touch a.tif b.exr c.obj d.glb e.pov f.txt g.png
-  [ "$(complete_last renderslab im)" = image ]
-  [ "$(complete_last bakeslab help pro)" = projector ]
-  [ "$(complete_last renderslab image --shadow-g)" = '--shadow-grid= --shadow-groups=' ]
-  [ "$(complete_last renderslab image --method pa)" = 'paper paper-levels' ]
-  [ "$(complete_last bakeslab convert --precision = f)" = float ]
-  [ "$(complete_last renderslab image '')" = 'c.obj d.glb' ]
-  [ "$(complete_last renderslab view c.obj --light "'")" = 'a.tif b.exr' ]
-  [ "$(complete_last renderslab image -o '')" = 'b.exr g.png' ]
-  [ "$(complete_last bakeslab bake '')" = e.pov ]
-  [ "$(complete_last renderslab image --size '')" = '' ]
-  # Every option of every command.
-  for program in bakeslab renderslab; do
-    for command in $(commands "$PREFIX/bin/$program"); do
-      for option in $("$PREFIX/bin/$program" "$command" --help | sed '/^Examples/,$d' | grep -oE -- '^ +(-., )*--[a-z][a-z-]*' | grep -oE -- '--.*'); do
-        [[ "$(complete_last "$program" "$command" "$option")" == "$option"* ]] || { echo "$program $command $option"; false; }
-      done
-    done
   done
 }
 
