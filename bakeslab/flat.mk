@@ -59,7 +59,7 @@ READS := $(B)/lib/canned/reads.so
 $(READS): bakeslab/preload/reads.c bakeslab/preload/matt.c bakeslab/preload/matt.h | $(B)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
-	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -fPIC -shared $(filter %.c,$^) -ldl -o $@
+	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -Ibakeslab -fPIC -shared $(filter %.c,$^) -ldl -o $@
 
 # The only program that loads OpenImageIO.
 IMAGE := $(B)/lib/canned/bakeslab-image

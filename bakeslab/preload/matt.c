@@ -1,6 +1,6 @@
 /* matt.c - see matt.h. Lines stay as they are, for POV-Ray's messages. A finish that #macro, #if or
  * their like cut in two is left alone. */
-#include "matt.h"
+#include "preload/matt.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "matt.h"
+#include "preload/matt.h"
 
 static __thread int busy; /* with a list, which is no file of the script's */
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bats
 # The balance of a lamp's light: efficiency, what the pages miss, more light than there is.
+# shellcheck disable=SC2154 # run sets stderr and stderr_lines
 bats_require_minimum_version 1.5.0
 load bake
 
