@@ -73,7 +73,7 @@ static void make_light(int uv, int st, bool filled, struct light *light, struct 
   if (filled) hold(slab_alloc(slab, &error), &error);
   if (filled) fill(slab);
   if (filled) hold(light_page_set_samples(page, &error), &error);
-  *light = (struct light){.count = 1, .pages = page, .gain = 1, .scale = 1};
+  *light = (struct light){.count = 1, .pages = page, .gain = {1, 1, 1}, .scale = 1};
 }
 
 /* ---- Receivers ---- */
