@@ -90,10 +90,8 @@ void bakes_lamp_add(const char *name, const char *format, ...) {
 
 void bakes_lamp(const char *name) {
   fclose(open_lamp(name, "w"));
-  bakes_lamp_add(name,
-                 "#version 3.7;\n#include \"canned.inc\"\n#include \"known.inc\"\n"
-                 "Canned_Lamp(\"%s\")\nCanned_Needs(\"\")\n",
-                 name);
+  bakes_lamp_add(name, "#version 3.7;\n#include \"canned.inc\"\n#include \"known.inc\"\n"
+                       "Canned_Lamp(\"lamp\")\nCanned_Needs(\"\")\n");
 }
 
 static void print_frame(FILE *out, const struct bakes_frame *frame) {
