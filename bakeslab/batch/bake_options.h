@@ -10,32 +10,32 @@
 struct bake_options {
   const char *lamp, *output;
   const char *povray;           /* program */
-  bool sandbox;                 /* POV-Ray runs in one */
   const char *const *libraries; /* Library_Path, NULL-terminated, or NULL */
+  const char *effects;          /* "auto", "probe", "all", "none" or a list of words */
+  double effect_threshold;      /* part of the flux that an effect must change to matter */
+  double tolerance;             /* relative RMS of irradiance that decides uv[] and st[]; 0: none */
+  double for_distance;          /* in lamp units; 0: none */
+  double gain;                  /* 0: by the brightness that the trial run shows */
+  void (*warn)(const char *line);      /* told each warning at once; NULL: nobody */
+  void (*tell_plan)(const char *line); /* of what it is going to be, before it begins; or NULL */
+  const char *depend;  /* a rule for make goes there before the slab is written, or NULL */
+  const char *command; /* for the provenance */
   int uv[2], st[2];
-  bool uv_free, st_free;   /* not given: a tolerance may choose others */
-  int rays;                /* passes: 1 or an even number; the mean where adaptive */
-  int rays_max;            /* for the noisiest tiles */
-  bool centre;             /* one ray through each sample's centre */
-  bool uniform;            /* the same passes everywhere */
-  const char *effects;     /* "auto", "probe", "all", "none" or a list of words */
-  double effect_threshold; /* part of the flux that an effect must change to matter */
-  bool window_auto;        /* st windows are fitted to the light */
-  double tolerance;        /* relative RMS of irradiance that decides uv[] and st[]; 0: none */
-  double for_distance;     /* in lamp units; 0: none */
-  double gain;             /* 0: by the brightness that the trial run shows */
-  int form;                /* an enum bake_form, or -1: the cheapest */
+  int rays;     /* passes: 1 or an even number; the mean where adaptive */
+  int rays_max; /* for the noisiest tiles */
+  int form;     /* an enum bake_form, or -1: the cheapest */
   int jobs;
   int shard, shards; /* this process bakes batches shard, shard+shards, ... */
   enum slab_precision precision;
+  bool uv_free, st_free; /* not given: a tolerance may choose others */
+  bool centre;           /* one ray through each sample's centre */
+  bool uniform;          /* the same passes everywhere */
+  bool window_auto;      /* st windows are fitted to the light */
+  bool sandbox;          /* POV-Ray runs in one */
+  bool strict;           /* a warning is a failure */
+  bool dry_run;          /* ends with the plan */
+  bool ask;              /* refuses more than an hour */
   bool quiet;
-  void (*warn)(const char *line); /* told each warning at once; NULL: nobody */
-  bool strict;                    /* a warning is a failure */
-  const char *depend; /* a rule for make goes there before the slab is written, or NULL */
-  void (*tell_plan)(const char *line); /* of what it is going to be, before it begins; or NULL */
-  bool dry_run;                        /* ends there */
-  bool ask;                            /* refuses more than an hour */
-  const char *command;                 /* for the provenance */
 };
 
 struct bake_report {

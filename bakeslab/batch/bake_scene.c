@@ -72,14 +72,18 @@ static void print_filter(FILE *out, double gain, const struct slab *slab) {
   fputs("\n  no_shadow no_radiosity no_reflection photons { pass_through } }\n", out);
 }
 
+static bool same_vector(const double a[3], const double b[3]) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /* Whether another page in the same plane has a filter that serves this one too. */
 static bool has_wider(const struct slab *slabs, int pages, int page) {
   const struct slab *slab = &slabs[page];
   for (int n = 0; n < pages; ++n) {
     const struct slab *other = &slabs[n];
     double more[2];
-    if (n == page || memcmp(slab->center, other->center, sizeof slab->center) != 0 ||
-        memcmp(slab->normal, other->normal, sizeof slab->normal) != 0)
+    if (n == page || !same_vector(slab->center, other->center) ||
+        !same_vector(slab->normal, other->normal))
       continue;
     for (int axis = 0; axis < 2; ++axis)
       more[axis] = filter_reach(other, axis) - filter_reach(slab, axis);

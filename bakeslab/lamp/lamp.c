@@ -85,7 +85,7 @@ static enum result run_listing(const struct povray *povray, struct povray_job *j
                                struct error *error) {
   char *folder = realpath(job->directory, NULL);
   char *list = folder ? files_join(folder, "reads.txt") : NULL;
-  static const char preload[] = "./" LAMP_READS;
+  static const char preload[] = LAMP_PRELOAD;
   const char *const environment[] = {"LD_PRELOAD", preload, "CANNED_READS", list, "CANNED_MATT",
                                      "1",          NULL};
   job->environment = environment;

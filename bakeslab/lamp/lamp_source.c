@@ -11,7 +11,7 @@
 #include "base/files.h"
 #include "lamp/lamp.h"
 
-const char *const lamp_without_highlights[] = {"LD_PRELOAD", "./" LAMP_READS, "CANNED_MATT", "1",
+const char *const lamp_without_highlights[] = {"LD_PRELOAD", LAMP_PRELOAD, "CANNED_MATT", "1",
                                                NULL};
 
 enum result lamp_source_open(const char *script, const char *const *libraries,

@@ -83,7 +83,8 @@ static void grow(const struct slab *wide, int axis, double window[2]) {
   for (int k = 0; k < REACH_DIRECTIONS; ++k) all += flux[k];
   for (int end = 0; end < 2 && all > 0; ++end) {
     int k = end ? REACH_DIRECTIONS - 1 : 0, inward = end ? -1 : 1;
-    for (beyond = flux[k]; beyond <= negligible_beyond * all; beyond += flux[k]) k += inward;
+    beyond = flux[k];
+    while (beyond <= negligible_beyond * all) beyond += flux[k += inward];
     double edge = slab_position(wide, axis, k) - inward * step / 2;
     /* A cell on the declared edge does not tell on which side its light is. */
     bool outside = end ? edge - step >= declared[1] - 1e-9 : edge + step <= declared[0] + 1e-9;
