@@ -21,7 +21,7 @@ enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24 };
  * hold some. */
 #define LAMP_SCRIPT "canned-lamp.pov"
 #define LAMP_READS "canned-reads.so"
-#define LAMP_PRELOAD "./" LAMP_READS
+#define LAMP_PRELOAD "./canned-reads.so" /* from the folder where POV-Ray runs */
 
 /* The environment in which POV-Ray sees a script without its highlights. */
 extern const char *const lamp_without_highlights[];
