@@ -1,5 +1,5 @@
-/* matt.c - see matt.h. Lines stay as they are, for POV-Ray's messages. A finish that #macro, #if or
- * their like cut in two is left alone. */
+/* matt.c - see matt.h. Lines stay as they are, for POV-Ray's messages. A finish or rainbow that
+ * #macro, #if or their like cut in two is left alone. */
 #include "preload/matt.h"
 
 #include <ctype.h>
@@ -9,7 +9,13 @@
 #include <unistd.h>
 
 enum { MOST_TEXT = 1 << 26 };
-static const char addition[] = " specular 0 phong 0 ";
+
+/* What is added at the end of which blocks. */
+static const struct {
+  const char *word, *addition;
+} additions[] = {{"finish", " specular 0 phong 0 "},
+                 {"rainbow", " color_map { [0 rgbt 1] [1 rgbt 1] } "}};
+enum { ADDITIONS = sizeof additions / sizeof *additions };
 
 /* The end of a comment or a string that begins at `at`, or `at`. */
 static const char *skip_inert(const char *at) {
@@ -71,6 +77,20 @@ static const char *closing_brace(const char *open, int *found) {
   return NULL;
 }
 
+/* The addition to blocks of this word, or NULL. */
+static const char *addition_to(const char *word, size_t length) {
+  for (int n = 0; n < ADDITIONS; ++n)
+    if (strlen(additions[n].word) == length && !strncmp(word, additions[n].word, length))
+      return additions[n].addition;
+  return NULL;
+}
+
+static int has_any(const char *text) {
+  for (int n = 0; n < ADDITIONS; ++n)
+    if (strstr(text, additions[n].word)) return 1;
+  return 0;
+}
+
 /* Writes the script to `out`. */
 static void rewrite(const char *text, FILE *out, int *found) {
   const char *written = text, *at = text;
@@ -81,9 +101,9 @@ static void rewrite(const char *text, FILE *out, int *found) {
       at = rest != at ? rest : at + 1;
       continue;
     }
-    int finish = length == 6 && !strncmp(at, "finish", length);
+    const char *addition = addition_to(at, length);
     at += length;
-    if (!finish) continue;
+    if (!addition) continue;
     const char *open = at + strspn(at, " \t\r\n");
     const char *close = *open == '{' ? closing_brace(open, found) : NULL;
     if (!close) continue;
@@ -103,7 +123,7 @@ FILE *matt_script(FILE *file, int *found) {
   size_t length = fread(text, 1, (size_t)size, file);
   text[length] = 0;
   rewind(file);
-  if (strlen(text) != length || !strstr(text, "finish")) goto end;
+  if (strlen(text) != length || !has_any(text)) goto end;
   int memory = memfd_create("script", MFD_CLOEXEC);
   out = memory >= 0 ? fdopen(memory, "w+") : NULL;
   if (!out) goto end;

@@ -21,7 +21,7 @@ $wall
 LAMP
 }
 
-@test "assumed_gamma, versions, backgrounds and default textures: the same samples" {
+@test "assumed_gamma, versions, backgrounds, rainbows and default textures: the same samples" {
   local gamma
   lamp '#version 3.7;' ''
   small lamp.pov -q -o plain.exr
@@ -35,6 +35,10 @@ LAMP
     same plain.exr x.exr
   done
   lamp '#version 3.5; global_settings { assumed_gamma 2.2 }' 'background { rgb 0.3 }'
+  small lamp.pov -q -o x.exr
+  same plain.exr x.exr
+  lamp '' 'rainbow { angle 60 width 120 distance 0.5 direction <0, 0, 1> up y
+    color_map { [0 rgbt <1, 0, 0, 0>] [1 rgbt <0, 0, 1, 0>] } }'
   small lamp.pov -q -o x.exr
   same plain.exr x.exr
   lamp '' 'sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb <0, 0, 1>] } } } background { rgb 2 }
