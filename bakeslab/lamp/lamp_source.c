@@ -107,10 +107,24 @@ static void replace(char *text, size_t size, const char *from, const char *to) {
   }
 }
 
+/* What a script leaves open, POV-Ray misses in the scene that includes it, or in what that calls:
+ * at the script's end. */
+static void replace_end(char *text, size_t size, const char *place, const char *script) {
+  char end[64], told[PATH_MAX + 32];
+  char *at = strstr(text, place), *rest = at ? strchr(at, ':') : NULL;
+  if (!rest || rest - at >= (long)sizeof end) return;
+  snprintf(end, sizeof end, "%.*s", (int)(rest - at), at);
+  snprintf(told, sizeof told, "At the end of '%s'", script);
+  replace(text, size, end, told);
+}
+
 void lamp_source_rename(const struct lamp_source *source, struct error *error) {
   char quoted[PATH_MAX + 8];
   snprintf(quoted, sizeof quoted, "'%s'", source->script);
   replace(error->text, sizeof error->text, "'" LAMP_SCRIPT "'", quoted);
   snprintf(quoted, sizeof quoted, "'%s/", source->folder);
   replace(error->text, sizeof error->text, "'canned-folder/", quoted);
+  replace_end(error->text, sizeof error->text, "File 'scene.pov' line ", source->script);
+  replace_end(error->text, sizeof error->text, "File 'canned-include/canned_bake.inc' line ",
+              source->script);
 }

@@ -25,6 +25,8 @@ declared() {
 
 @test "a script that does not parse: POV-Ray's line with the user's file and line" {
   declared "'lamp.pov' line 7: .*Parse Error" 'sphere { <0, 0, 0> }'
+  declared "At the end of 'lamp.pov': Parse Error: No matching }" 'sphere { <0, 0, 0>, 1 pigment { rgb 1 }'
+  declared "At the end of 'lamp.pov': Parse Error: .*#end expected" '#if (1)'
   mkdir sub
   printf '\n\nbox { oops }\n' >sub/parts.inc
   flat_lamp sub/broken.pov '#include "parts.inc"'
