@@ -142,7 +142,8 @@ static enum result find_effects(struct bake_work *work, struct bake_state *state
     if (result == RESULT_OK) result = probe_photons(work, &state->effects, report, error);
   }
   bool known = automatic && !state->origin.probed && !effects_any(&state->effects) &&
-               !state->lamp.lights; /* a light for previews may be left out of bakes */
+               state->lamp.all_lights <=
+                   state->lamp.bulbs; /* a light for previews may be left out of bakes */
   return result != RESULT_OK || known ? result : try_lamp(work, state, &state->effects, error);
 }
 
@@ -154,7 +155,7 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
   if (result == RESULT_OK) /* an include bears it */
     result = result_at(sdl_capitalise(work->slabs[0].name, name, error), error, "%s: Canned_Lamp",
                        options->lamp);
-  if (result == RESULT_OK) result = bake_warn_of_lamp(work, &report->warnings, error);
+  if (result == RESULT_OK) result = bake_warn_of_lamp(work, &state->lamp, &report->warnings, error);
   if (result == RESULT_OK && options->depend)
     result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
                          true, error);

@@ -227,7 +227,16 @@ static const char *unknown(const struct bake_work *work, const struct bake_energ
   bool glows = luminance(energy->dark) > negligible * luminance(energy->pages);
   if ((glows || lamp->lights) && luminance(lamp->glow_flux) <= 0)
     return "there is more light than Canned_Bulb's, and Canned_Glow does not tell its flux";
+  if (lamp->all_lights - lamp->lights != lamp->bulbs)
+    return "POV-Ray does not count a light for each call of Canned_Bulb: one is in an object that "
+           "is there several times, or never, or in a light_group";
   return NULL;
+}
+
+/* Without the exponent that %.2g gives 100. */
+static const char *two_digits(double value, char text[16]) {
+  snprintf(text, 16, value < 9.95 ? "%.2g" : "%.0f", value);
+  return text;
 }
 
 static void say(const struct bake_work *work, const char *why, double noise,
@@ -239,8 +248,9 @@ static void say(const struct bake_work *work, const char *why, double noise,
   if (luminance(energy->dark) > negligible * luminance(energy->pages))
     snprintf(share, sizeof share, " (%.3g %% not of bulbs)",
              100 * luminance(energy->dark) / luminance(energy->pages));
-  char known[40] = "";
-  if (noise > 0.003) snprintf(known, sizeof known, " (known to %.2g %%)", 300 * noise);
+  char known[40] = "", digits[16];
+  if (noise > 0.003)
+    snprintf(known, sizeof known, " (known to %s %%)", two_digits(300 * noise, digits));
   if (why)
     snprintf(line, BAKE_ENERGY_LINE, "%.4g %s leaves through the pages%s; efficiency not known: %s",
              metres2 * luminance(energy->pages), unit, share, why);
@@ -266,7 +276,10 @@ static double gain(const struct bake_work *work, const struct bake_energy *energ
 
 static void warn(const struct bake_work *work, const struct bake_energy *energy, bool known,
                  double noise, struct warnings *warnings) {
-  double gained = gain(work, energy, known), all = luminance(energy->pages) / (1 - energy->missed);
+  double gained = gain(work, energy, known);
+  double window = luminance(energy->window), beside = luminance(energy->beside);
+  char text[3][16];
+  double percent = 100 * energy->missed / (window + beside);
   if (gained > 1 + most_gained + 3 * noise)
     warnings_add(
         warnings, "%.3g times as much light leaves the lamp as its bulbs give%s", gained,
@@ -276,13 +289,12 @@ static void warn(const struct bake_work *work, const struct bake_energy *energy,
             : "; a surface may give back more than it gets (pigment, diffuse, reflection above 1 "
               "together), or a Canned_Bulb may be in an object that is there several times");
   if (energy->missed > most_missed)
-    warnings_add(
-        warnings,
-        "the pages miss %.2g %% of the light: %.2g %% leaves beyond their windows, %.2g %% "
-        "beside them; enlarge those in Canned_Slab%s",
-        100 * energy->missed, 100 * luminance(energy->window) / all,
-        100 * luminance(energy->beside) / all,
-        work->options->window_auto ? "" : ", or bake with --window auto");
+    warnings_add(warnings,
+                 "the pages miss %s %% of the light: %s %% leaves beyond their windows, %s %% "
+                 "beside them; enlarge those in Canned_Slab%s",
+                 two_digits(100 * energy->missed, text[0]), two_digits(percent * window, text[1]),
+                 two_digits(percent * beside, text[2]),
+                 work->options->window_auto ? "" : ", or bake with --window auto");
 }
 
 enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,

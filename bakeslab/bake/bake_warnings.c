@@ -21,13 +21,13 @@ static void end_trial(char *scratch) {
   free(scratch);
 }
 
-enum result bake_warn_of_lamp(const struct bake_work *work, struct warnings *warnings,
-                              struct error *error) {
-  const struct lamp *lamp = work->lamp;
+enum result bake_warn_of_lamp(const struct bake_work *work, struct lamp *lamp,
+                              struct warnings *warnings, struct error *error) {
   struct lamp_trial trial;
   char *scratch = NULL;
   double ambient = 0;
   enum result result = begin_trial(work, &trial, &scratch, error);
+  if (result == RESULT_OK) result = lamp_count_lights(&trial, lamp, error);
   if (result == RESULT_OK) result = lamp_ambient_part(&trial, lamp, &ambient, error);
   if (lamp->lights)
     warnings_add(warnings,

@@ -5,10 +5,10 @@
 
 #include "batch/bake_run.h"
 
-/* By trial runs, before the bake: light_sources, things that glow by `ambient`, files that the
- * script writes. */
-enum result bake_warn_of_lamp(const struct bake_work *work, struct warnings *warnings,
-                              struct error *error);
+/* By trial runs of the work's lamp, before the bake: light_sources, which are counted in it, things
+ * that glow by `ambient`, files that the script writes. */
+enum result bake_warn_of_lamp(const struct bake_work *work, struct lamp *lamp,
+                              struct warnings *warnings, struct error *error);
 
 /* All pages are black: the likely reason, by more trial runs. */
 enum result bake_warn_of_darkness(const struct bake_work *work, const struct slab *pages,

@@ -18,7 +18,8 @@ static const char trial_scene[] = "#declare Canned_Bake_Describe = \"declared.tx
                                   "#declare Canned_Bake_Probe = 1;\n"
                                   "#include \"canned_bake.inc\"\n"
                                   "#include \"" LAMP_SCRIPT "\"\n"
-                                  "Canned_Neutral()\n";
+                                  "Canned_Neutral()\n"
+                                  "Canned_Probe()\n";
 
 static enum result read_declarations(const struct lamp_source *source, const char *directory,
                                      struct lamp *lamp, struct error *error) {
@@ -73,7 +74,8 @@ static enum result write_trial(const char *directory, const struct effects *effe
   if (!out) return result_no_memory(error);
   fputs("#version 3.7;\n", out);
   if (effects) effects_declare(effects, out);
-  fprintf(out, "%s%sCanned_Probe()\n", trial_scene, change ? change : "");
+  if (change) fprintf(out, "#declare %s = 1;\n", change);
+  fputs(trial_scene, out);
   enum result result = fclose(out) || !scene ? result_no_memory(error)
                                              : files_write(directory, "scene.pov", scene, error);
   free(scene);
@@ -121,7 +123,7 @@ enum result lamp_try(const struct povray *povray, const struct lamp_source *sour
   lamp->own_radiosity = povray_statistic(directory, "Radiosity samples calculated:") >= 0;
   double lights = povray_statistic(directory, "Light Sources:");
   if (result == RESULT_OK) result = read_declarations(source, directory, lamp, error);
-  if (result == RESULT_OK && lights > lamp->bulbs) lamp->lights = (int)lights - lamp->bulbs;
+  lamp->all_lights = lights > 0 ? (int)lights : 0;
   if (result == RESULT_OK)
     result = lamp_reads_collect(directory, source->path, source->script, &lamp->reads, error);
   if (result == RESULT_OK) result = povray_read_frame(&job, 0, &picture, error);

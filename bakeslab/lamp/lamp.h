@@ -43,7 +43,8 @@ struct lamp {
   char needs[256];         /* of Canned_Needs */
   struct lamp_reads reads; /* every file that the script reads */
   int bulbs;               /* calls of Canned_Bulb */
-  int lights;              /* light_sources besides theirs, by POV-Ray's own count */
+  int all_lights;          /* light_sources by POV-Ray's own count, which leaves light_groups out */
+  int lights;              /* besides Canned_Bulb's: of lamp_count_lights; lamp_try leaves 0 */
   double peak;             /* brightest radiance of the trial run and the bulbs, any channel */
   double mean;             /* of the radiance that the trial run saw */
   double bulb_flux[3];     /* of all bulbs, in units of radiance and lamp units squared */
@@ -83,8 +84,9 @@ enum result lamp_declarations(char *text, const char *script, struct lamp *lamp,
                               struct error *error);
 
 /* Runs the script in `directory`, which is made if need be, and removed. `effects` are those that
- * are on; NULL leaves that to its Canned_Needs. `change` is SDL that follows the script; NULL:
- * none. `stop` as for povray_run. Free the lamp with lamp_free in any case. */
+ * are on; NULL leaves that to its Canned_Needs. `change` is a variable that
+ * canned.inc or canned_bake.inc look for; NULL: none. `stop` as for povray_run. Free the lamp with
+ * lamp_free in any case. */
 enum result lamp_try(const struct povray *povray, const struct lamp_source *source,
                      const char *directory, const struct effects *effects, const char *change,
                      const volatile sig_atomic_t *stop, struct lamp *lamp, struct error *error);

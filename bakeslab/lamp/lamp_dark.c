@@ -20,15 +20,21 @@ static enum result try_change(const struct lamp_trial *trial, const char *change
 
 /* ---- Words of the script ---- */
 
-/* The text after a comment or string that starts at `at`, or `at`. */
+/* The text after a comment or string that starts at `at`, or `at`. Comments nest. */
 static const char *after_quiet(const char *at) {
-  const char *end = at;
   if (!strncmp(at, "//", 2)) return at + strcspn(at, "\n");
-  if (!strncmp(at, "/*", 2)) return (end = strstr(at + 2, "*/")) ? end + 2 : at + strlen(at);
-  if (*at != '"') return at;
-  for (end = at + 1; *end && *end != '"'; ++end)
-    if (*end == '\\' && end[1]) ++end;
-  return *end ? end + 1 : end;
+  if (*at == '"') {
+    for (++at; *at && *at != '"'; ++at)
+      if (*at == '\\' && at[1]) ++at;
+    return *at ? at + 1 : at;
+  }
+  int depth = 0;
+  do {
+    bool opens = !strncmp(at, "/*", 2), closes = depth > 0 && !strncmp(at, "*/", 2);
+    depth += opens - closes;
+    at += opens || closes ? 2 : depth > 0;
+  } while (depth > 0 && *at);
+  return at;
 }
 
 static size_t word_length(const char *at) {
@@ -37,9 +43,9 @@ static size_t word_length(const char *at) {
   return n;
 }
 
-/* Whether the word has an effect: `ambient 0` has none. */
+/* Whether the word has an effect: `ambient 0` and `emission 0` have none. */
 static bool means_it(const char *word, const char *after) {
-  if (strcmp(word, "ambient") != 0) return true;
+  if (strcmp(word, "ambient") != 0 && strcmp(word, "emission") != 0) return true;
   after += strspn(after, " \t\r\n");
   return *after != '0' || after[1] == '.' || isdigit((unsigned char)after[1]);
 }
@@ -71,13 +77,25 @@ static bool mentions(const struct lamp_trial *trial, const struct lamp *lamp, co
   return found;
 }
 
+enum result lamp_count_lights(const struct lamp_trial *trial, struct lamp *lamp,
+                              struct error *error) {
+  struct lamp unlit = {0};
+  enum result result = RESULT_OK;
+  if (mentions(trial, lamp, "light_source"))
+    result = lamp_try(trial->povray, trial->source, trial->directory, trial->effects,
+                      "Canned_Probe_Unlit_", trial->stop, &unlit, error);
+  lamp->lights = unlit.all_lights;
+  lamp_free(&unlit);
+  return result;
+}
+
 bool lamp_has_light_groups(const struct lamp_trial *trial, const struct lamp *lamp) {
   return mentions(trial, lamp, "light_group");
 }
 
 /* ---- Ambient ---- */
 
-static const char let_glow[] = "global_settings { ambient_light 1 }\n";
+static const char let_glow[] = "Canned_Probe_Glow_";
 
 enum result lamp_ambient_part(const struct lamp_trial *trial, const struct lamp *lamp, double *part,
                               struct error *error) {
@@ -96,11 +114,11 @@ enum result lamp_why_dark(const struct lamp_trial *trial, const struct lamp *lam
   static const struct {
     const char *change, *reason;
   } tries[] = {
-      {"#declare Canned_Probe_Turned_ = 1;\n",
+      {"Canned_Probe_Turned_",
        "there is light on the other side: the normal of Canned_Slab points into the lamp; turn it"},
-      {"#declare Canned_Probe_Wide_ = 1;\n",
+      {"Canned_Probe_Wide_",
        "all of its light leaves outside the st window; enlarge that in Canned_Slab"},
-      {"#declare Canned_Probe_Inside_ = 1;\n",
+      {"Canned_Probe_Inside_",
        "there is light inside, but something opaque shuts the aperture; move Canned_Slab to where "
        "the light leaves, or open the lamp"},
       {let_glow,
@@ -112,11 +130,15 @@ enum result lamp_why_dark(const struct lamp_trial *trial, const struct lamp *lam
     result = try_change(trial, tries[n].change, &mean, error);
     if (mean > 0) break;
   }
-  *reason = n < count      ? tries[n].reason
-            : lamp->lights ? "it is lit by light_sources alone, and shows nothing that they light; "
-                             "write Canned_Bulb"
-            : lamp->bulbs && lamp->peak == 0 ? "its bulbs have radiance 0"
-            : lamp->bulbs ? "neither its bulbs nor what they light can be seen through the slabs"
-                          : "nothing in it glows; add Canned_Bulb, or finish { emission ... }";
+  *reason =
+      n < count      ? tries[n].reason
+      : lamp->lights ? "it is lit by light_sources alone, and shows nothing that they light; "
+                       "write Canned_Bulb"
+      : lamp->bulbs && lamp->peak == 0 ? "its bulbs have radiance 0"
+      : lamp->bulbs ? "neither its bulbs nor what they light can be seen through the slabs"
+      : mentions(trial, lamp, "emission")
+          ? "what has emission cannot be seen: its pigment is clear (rgbt 1, rgbf 1), its media "
+            "are in no hollow object, or it is hidden by clipped_by, no_image or other things"
+          : "nothing in it glows; add Canned_Bulb, or finish { emission ... }";
   return result;
 }

@@ -14,6 +14,10 @@ struct lamp_trial {
   const volatile sig_atomic_t *stop;
 };
 
+/* Counts the light_sources besides Canned_Bulb's: lamp->lights. */
+enum result lamp_count_lights(const struct lamp_trial *trial, struct lamp *lamp,
+                              struct error *error);
+
 /* The part of the light, as the trial run sees it, that is there only where `ambient` glows, which
  * canned.inc switches off; 0 where no file that the script reads asks for it. */
 enum result lamp_ambient_part(const struct lamp_trial *trial, const struct lamp *lamp, double *part,

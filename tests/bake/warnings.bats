@@ -33,6 +33,16 @@ wall='box { <-9, -9, -2.1>, <9, 9, -2> pigment { rgb 0.8 } finish { diffuse 1 } 
   [[ $output != *light_* && $output != *ambient* && $output != *writes* ]]
 }
 
+@test "light_sources are counted where bulbs are placed often or never; nested comments hold none" {
+  lamp "$wall #declare Pair_ = union { Canned_Bulb(<0, 0, -1>, 0.1, 9) } object { Pair_ } object { Pair_ translate x }"
+  [[ $output != *light_source* ]]
+  [[ $("$BAKESLAB" info x.exr) == *"efficiency not known: POV-Ray does not count a light for each call"* ]]
+  lamp "$wall #declare Unused_ = union { Canned_Bulb(<0, 0, -1>, 0.1, 9) } light_source { <0, 1, -1> rgb 1 }"
+  [[ $output == *"warning: 1 light_source besides"* ]]
+  lamp "$wall Canned_Bulb(<0, 0, -1>, 0.1, 9) /* /* */ light_group { light_source { 0 1 } } */"
+  [[ $output != *light_* ]]
+}
+
 @test "a lamp without light: told, with the likely reason" {
   lamp 'box { <-9, -9, -1.1>, <9, 9, -1> pigment { rgb 1 } finish { ambient 1 diffuse 0 } }'
   [[ $output == *"gives no light at all: it glows by ambient"* ]]
@@ -46,6 +56,11 @@ wall='box { <-9, -9, -2.1>, <9, 9, -2> pigment { rgb 0.8 } finish { diffuse 1 } 
   [[ $output == *"gives no light at all: all of its light leaves outside the st window"* ]]
   lamp 'Canned_Bulb(<0, 0, -1>, 0.3, 10) box { <-2, -2, -0.1>, <2, 2, -0.05> pigment { rgb 0 } }'
   [[ $output == *"gives no light at all: there is light inside, but something opaque shuts"* ]]
+  lamp 'box { <-9, -9, -2>, <9, 9, -1> pigment { rgbt 1 } finish { emission 1 } }'
+  [[ $output == *"gives no light at all: what has emission cannot be seen: its pigment is clear"* ]]
+  lamp 'sphere { 0, 9 pigment { rgb 0 } } sphere { <0, 0, -30>, 9 pigment { rgb 1 } finish { emission 1 } }
+    sphere { <20, 0, -1>, 5 pigment { rgb 1 } finish { emission 1 } }'
+  [[ $output == *"gives no light at all: "* && $output != *nan* && $output != *e+02* ]]
   lamp 'light_source { <0, 0, -1> 1 }'
   [[ $output == *"gives no light at all: it is lit by light_sources alone"* ]]
   lamp ''
