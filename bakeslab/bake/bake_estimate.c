@@ -20,11 +20,10 @@ static enum result measure(const struct bake_work *work, int directions, double 
                            struct bake_report *report, struct error *error) {
   const int samples[SLAB_AXES] = {4, 4, directions, directions};
   struct probe_bake bake = {0};
-  double before = report->probe_cpu;
   enum result result =
       probe_bake(work, work->slabs, work->look.effects, samples, 2, &bake, report, error);
+  *cpu = bake.cpu;
   probe_bake_free(&bake);
-  *cpu = report->probe_cpu - before;
   *rays = 2.0 * 16 * directions * directions * work->lamp->slab_count;
   return result;
 }
@@ -33,7 +32,7 @@ enum result bake_estimate(const struct bake_work *work, struct bake_estimate *es
                           struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
   double cpu[2], rays[2];
-  *estimate = (struct bake_estimate){.seconds = NAN};
+  *estimate = (struct bake_estimate){0};
   for (int n = 0; n < work->lamp->slab_count; ++n)
     estimate->samples += (double)slab_sample_count(&work->slabs[n]);
   estimate->rays = estimate->samples * options->rays;
@@ -43,9 +42,8 @@ enum result bake_estimate(const struct bake_work *work, struct bake_estimate *es
   double per_ray = fmax(0, (cpu[1] - cpu[0]) / (rays[1] - rays[0]));
   double first = fmax(0, cpu[0] - per_ray * rays[0]);
   double batches = ceil(estimate->rays / BATCH_RAYS), jobs = fmin(options->jobs, batches);
-  if (cpu[0] > 0 && cpu[1] > 0)
-    estimate->seconds =
-        (batches * (first + idle_seconds) + estimate->rays * per_ray) / jobs / options->shards;
+  estimate->seconds =
+      (batches * (first + idle_seconds) + estimate->rays * per_ray) / jobs / options->shards;
   estimate->memory = program_bytes + SUM_BYTES * estimate->samples +
                      jobs * (povray_bytes + povray_ray_bytes * fmin(BATCH_RAYS, estimate->rays));
   enum slab_precision precision = slab_file_precision_of(options->output, options->precision);
@@ -58,12 +56,12 @@ enum result bake_estimate(const struct bake_work *work, struct bake_estimate *es
 void bake_estimate_say(const struct bake_work *work, const struct bake_estimate *estimate,
                        const char *why, char line[BAKE_ESTIMATE_LINE]) {
   const int *n = work->slabs[0].samples;
-  char time[64] = "not measured again";
+  char time[64];
   if (estimate->seconds < 120)
     snprintf(time, sizeof time, "some %.2g s", estimate->seconds);
   else if (estimate->seconds < 7200)
     snprintf(time, sizeof time, "some %.2g min", estimate->seconds / 60);
-  else if (!isnan(estimate->seconds))
+  else
     snprintf(time, sizeof time, "some %.2g h", estimate->seconds / 3600);
   snprintf(line, BAKE_ESTIMATE_LINE,
            "%d page%s of %d x %d x %d x %d samples (%s); %.3g rays; time %s with %d job%s, memory "

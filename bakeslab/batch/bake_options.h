@@ -44,6 +44,7 @@ struct bake_report {
   bool assembled;        /* false: a shard, which leaves that to the run without */
   double cpu, probe_cpu; /* seconds of POV-Ray in this run, for the slab and before it */
   double traced;         /* rays of all kinds, by POV-Ray's own count, of all batches */
+  double traced_cpu;     /* seconds that it took, by the same count */
   int depth;             /* the deepest trace level that POV-Ray reached */
   char photons_lost[48]; /* "POV-Ray shot 5 photons and stored 0" where most light that meets glass
                             is lost; or empty */

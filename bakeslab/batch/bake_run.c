@@ -43,7 +43,7 @@ struct run {
   size_t *order;        /* batches to render, in this order */
   size_t count, next;
   size_t rays_done, rays_all;
-  double traced, depth; /* see bake_report */
+  double traced, traced_cpu, depth; /* see bake_report */
   char photons_lost[48];
   struct progress progress;
 };
@@ -169,6 +169,7 @@ static void count_work(struct run *run, const char *directory) {
   static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
   for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)
     run->traced += fmax(0, povray_statistic(directory, labels[n]));
+  run->traced_cpu += povray_log_cpu(directory);
   run->depth = fmax(run->depth, povray_statistic(directory, "Max Level:"));
   check_photons(run, directory);
 }
@@ -326,6 +327,7 @@ enum result bake_run(const struct bake_work *work, const struct bake_round *roun
   if (run.processes) kill_all(&run);
   progress_end(&run.progress);
   report->traced += run.traced;
+  report->traced_cpu += run.traced_cpu;
   if (report->depth < run.depth) report->depth = (int)run.depth;
   if (run.photons_lost[0])
     memcpy(report->photons_lost, run.photons_lost, sizeof report->photons_lost);

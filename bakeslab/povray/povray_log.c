@@ -94,6 +94,18 @@ double povray_statistic(const char *directory, const char *label) {
   return value;
 }
 
+double povray_log_cpu(const char *directory) {
+  FILE *log = open_log(directory);
+  char line[LINE];
+  double sum = 0, value;
+  while (log && fgets(line, sizeof line, log)) {
+    const char *at = strstr(line, " thread(s) with ");
+    if (at && sscanf(at, " thread(s) with %lf CPU-seconds", &value) == 1) sum += value;
+  }
+  if (log) fclose(log);
+  return sum;
+}
+
 double povray_log_progress(const char *directory, bool animation) {
   char tail[2048];
   char *path = files_join(directory, "log");

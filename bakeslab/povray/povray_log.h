@@ -15,6 +15,9 @@ void povray_log_reason(const char *directory, char *reason, size_t size);
  * such line. */
 double povray_statistic(const char *directory, const char *label);
 
+/* Seconds of all its threads, by its own count: parsing, photons, radiosity, tracing. */
+double povray_log_cpu(const char *directory);
+
 /* Part of a running job that is rendered; an `animation` counts frames, a still its pixels. */
 double povray_log_progress(const char *directory, bool animation);
 

@@ -1,5 +1,6 @@
 #include "probe/probe_bake.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,7 @@ enum result probe_bake(const struct bake_work *work, const struct slab *slabs,
   if (result == RESULT_OK)
     result = bake_sum_finish(rounds.sum, small.look.gain, bake->pages, error);
   bake_rounds_free(&rounds);
+  bake->cpu = fmax(own.cpu, own.traced_cpu);
   bake->traced = own.traced;
   bake->depth = own.depth;
   memcpy(bake->photons_lost, own.photons_lost, sizeof bake->photons_lost);

@@ -8,6 +8,7 @@
 struct probe_bake {
   struct slab *pages; /* owned */
   int count;
+  double cpu;    /* seconds of POV-Ray; of batches that were found, by its own count */
   double traced; /* these three as in bake_report */
   int depth;
   char photons_lost[48];

@@ -97,6 +97,9 @@ cube='Canned_Needs("")
   run -0 --separate-stderr bake flat.pov -o x.tif --uv 4x5 --st 6 --rays 8 --dry-run
   [[ $stderr == *"flat.pov: plan: 1 page of 4 x 5 x 6 x 6 samples"*"; 5.76e+03 rays; time some "*" s with "*" jobs, memory "*" MB, file "*" MB" ]]
   [ ! -e x.tif ]
+  # Again, from the small bakes that the first one kept.
+  run -0 --separate-stderr bake flat.pov -o x.tif --uv 256 --st 128 --rays 1024 --dry-run
+  [[ $stderr == *"; time some "*" h with "* ]]
   sed 's/"flat"/"7 flat"/' flat.pov >name.pov
   refused 1 'name.pov: Canned_Lamp: ' x.exr bake name.pov -o x.exr --uv 2 --st 4
 }
