@@ -4,8 +4,9 @@
  *    whose flux is not known unless Canned_Glow tells it.
  * 2. Around the pages: their rectangles in a window twice as wide, where most of what they miss
  *    goes, and in one that reaches slopes of REACH, whose outermost directions stand for all
- * beyond; and WIDER rectangles in the same planes. A ray that passes through no page is missed; the
- * last rectangle that it passes counts it, or else the last wider one.
+ * beyond; and WIDER rectangles in the same planes, with the sides of the box around all pages that
+ * have no page. A ray that passes through no page is missed; the last rectangle that it passes
+ * counts it, or else such a side, or else the last wider one.
  * 3. After the bake: the flux of its pages, over that of the sources.
  *
  * The projected solid angle of a rectangle of slopes, seen from its corner, is in closed form that
@@ -31,7 +32,7 @@ enum {
   WIDE_POSITIONS = 6,
   WIDER = 3
 };
-static const double REACH = 8, very_far = 1e6;
+static const double REACH = 8, SIDE_REACH = 3, very_far = 1e6;
 
 /* Parts of a lamp's light that are told, and what a balance may be off without a warning. */
 static const double negligible = 0.005, most_missed = 0.01, most_gained = 0.02;
@@ -138,52 +139,101 @@ static struct ray ray_of(const struct slab *slab, int number, bool endless,
 }
 
 /* The planes of a lamp of `count` pages, one after the other: rectangles with windows NEAR theirs
- * and FAR beyond, and WIDE rectangles. `open` are the rectangles and the wide ones without windows.
- */
-enum kind { NEAR, FAR, WIDE, KINDS };
+ * and FAR beyond, WIDE rectangles, and `sides` of the box around them. `open` are these without
+ * windows. */
+enum kind { NEAR, FAR, WIDE, SIDE, MOST_SIDES = 6 };
 
 struct planes {
   const struct slab *pages; /* as they are */
-  int count;
-  struct slab *baked, *open; /* [KINDS * count]; own nothing */
+  int count, sides;
+  struct slab *baked, *open; /* [SIDE * count + sides]; own nothing */
 };
 
 static bool passes(const struct slab *plane, const struct ray *ray, double *ahead) {
   return flux_box_leaves(plane, ray->point, ray->direction, ahead);
 }
 
-/* Whether a ray of a plane of page `self` is missed and counts there. */
-static bool is_missed(const struct planes *planes, enum kind kind, int self,
-                      const struct ray *ray) {
+/* Whether a ray of plane number `plane` is missed and counts there. */
+static bool is_missed(const struct planes *planes, int plane, const struct ray *ray) {
   double ahead;
-  int count = planes->count;
+  int count = planes->count, self = plane % count;
+  enum kind kind = (enum kind)(plane < SIDE * count ? plane / count : SIDE);
   if (kind == FAR && passes(&planes->baked[self], ray, &ahead)) return false;
   for (int n = 0; n < count; ++n) {
-    const struct slab *rectangle = &planes->open[n], *wide = &planes->open[WIDE * count + n];
+    const struct slab *rectangle = &planes->open[n];
     if (passes(&planes->pages[n], ray, &ahead)) return false;
-    if (passes(rectangle, ray, &ahead) && (kind == WIDE || (n != self && ahead > 0))) return false;
-    if (kind == WIDE && n != self && passes(wide, ray, &ahead) && ahead > 0) return false;
+    if (passes(rectangle, ray, &ahead) && (kind >= WIDE || (n != self && ahead > 0))) return false;
+  }
+  for (int n = (int)kind * count; kind >= WIDE && n < SIDE * count + planes->sides; ++n) {
+    bool first = kind == WIDE && n >= SIDE * count;
+    if (n != plane && passes(&planes->open[n], ray, &ahead) && (first || ahead > 0)) return false;
   }
   return true;
 }
 
 static void add_plane(const struct planes *planes, const struct slab *slab, int self,
                       double missed[3]) {
-  enum kind kind = (enum kind)(self / planes->count);
   double area = slab_spacing(slab, SLAB_U) * slab_spacing(slab, SLAB_V);
   for (size_t n = 0; n < slab_sample_count(slab); ++n) {
     int at[SLAB_AXES];
     const float *rgb = slab->rgb + 3 * n;
     if (rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0) continue;
     slab_locate(slab, n, at);
-    const struct ray ray = ray_of(slab, self, kind != NEAR, at);
-    if (!is_missed(planes, kind, self % planes->count, &ray)) continue;
+    const struct ray ray = ray_of(slab, self, self >= planes->count, at);
+    if (!is_missed(planes, self, &ray)) continue;
     for (int c = 0; c < 3; ++c) missed[c] += area * ray.angle * (double)rgb[c];
   }
 }
 
+/* The box around all pages, in lamp space; false where they span none. */
+static bool find_box(const struct planes *planes, double box[2][3]) {
+  double least = INFINITY, most = 0;
+  for (int c = 0; c < 3; ++c) {
+    box[0][c] = INFINITY;
+    box[1][c] = -INFINITY;
+    for (int n = 0; n < planes->count; ++n) {
+      const struct slab *page = &planes->pages[n];
+      double half = (fabs(page->u[c]) + fabs(page->v[c])) / 2;
+      box[0][c] = fmin(box[0][c], page->center[c] - half);
+      box[1][c] = fmax(box[1][c], page->center[c] + half);
+    }
+    least = fmin(least, box[1][c] - box[0][c]);
+    most = fmax(most, box[1][c] - box[0][c]);
+  }
+  return least > 0.05 * most;
+}
+
+/* The sides of the box that have no page in their plane. */
+static void make_sides(struct planes *planes) {
+  double box[2][3];
+  if (!find_box(planes, box)) return;
+  for (int side = 0; side < MOST_SIDES; ++side) {
+    int axis = side / 2, next = (axis + 1) % 3, last = (axis + 2) % 3;
+    double at = box[side % 2][axis], close = 0.01 * (box[1][axis] - box[0][axis]);
+    bool taken = false;
+    for (int n = 0; n < planes->count; ++n)
+      taken |= fabs(planes->pages[n].normal[axis]) > 0.999 &&
+               fabs(planes->pages[n].center[axis] - at) < close;
+    if (taken) continue;
+    struct slab *plane = &planes->baked[SIDE * planes->count + planes->sides];
+    *plane = planes->pages[0];
+    for (int c = 0; c < 3; ++c) {
+      plane->center[c] = c == axis ? at : (box[0][c] + box[1][c]) / 2;
+      plane->normal[c] = c == axis ? (side % 2 ? 1 : -1) : 0;
+      plane->u[c] = c == next ? box[1][c] - box[0][c] : 0;
+      plane->v[c] = c == last ? box[1][c] - box[0][c] : 0;
+    }
+    plane->st_distance = INFINITY;
+    for (int k = 0; k < 4; ++k) plane->st_window[k] = 0;
+    widen_window(plane, SIDE_REACH, NEAR_DIRECTIONS);
+    struct slab *open = &planes->open[SIDE * planes->count + planes->sides++];
+    *open = *plane;
+    for (int k = 0; k < 4; ++k) open->st_window[k] = k % 2 ? INFINITY : -INFINITY;
+  }
+}
+
 static void make_planes(struct planes *planes) {
-  for (int n = 0; n < KINDS * planes->count; ++n) {
+  for (int n = 0; n < SIDE * planes->count; ++n) {
     struct slab *plane = &planes->baked[n];
     int kind = n / planes->count;
     *plane = planes->pages[n % planes->count];
@@ -201,11 +251,13 @@ static enum result probe_around(const struct bake_work *work, struct bake_energy
   struct bake_work around = *work;
   struct lamp lamp = *work->lamp;
   struct probe_bake bake = {0};
-  planes.baked = malloc(KINDS * (size_t)pages * sizeof *planes.baked);
-  planes.open = malloc(KINDS * (size_t)pages * sizeof *planes.open);
+  size_t most = SIDE * (size_t)pages + MOST_SIDES;
+  planes.baked = malloc(most * sizeof *planes.baked);
+  planes.open = malloc(most * sizeof *planes.open);
   enum result result = planes.baked && planes.open ? RESULT_OK : result_no_memory(error);
   if (result == RESULT_OK) make_planes(&planes);
-  lamp.slab_count = KINDS * pages;
+  if (result == RESULT_OK) make_sides(&planes);
+  lamp.slab_count = SIDE * pages + planes.sides;
   around.lamp = &lamp;
   if (result == RESULT_OK)
     result = probe_bake(&around, planes.baked, work->look.effects, NULL, 1, &bake, report, error);

@@ -42,6 +42,15 @@ cube='Canned_Needs("")
   [ "$(grep -c warning <<<"$output")" -eq 1 ]
 }
 
+@test "a flat box without a page above: what leaves there is told" {
+  # The part of a bulb's light that passes a rectangle 10 by 10, 3 away: its solid angle.
+  lamp open.pov 'Canned_Needs("") #declare W_ = <-3, 3, -3, 3>;
+    #for (I_, 0, 3) Canned_Slab(vrotate(5*z, 90*I_*y), vrotate(10*x, 90*I_*y), 6*y, vrotate(z, 90*I_*y), W_, 0) #end
+    Canned_Slab(-3*y, 10*x, 10*z, -y, W_, 0) Canned_Bulb(0, 0.8, 10)'
+  bake open.pov -q -o x.exr --uv 4 --st 24 --rays 4
+  near "$(told x.exr missed)" "$(awk 'BEGIN { r = sqrt(25 + 9); print atan2(25, 3*sqrt(59))/3.14159265 }')" 0.2
+}
+
 @test "a glowing disc: Lambert's law says how much a window lets through" {
   lamp disc.pov 'Canned_Needs("") Canned_Metres_Per_Unit(0.5) Canned_Radiance_Unit("W/(sr m2)")
     Canned_Slab(0, 2*x, 2*y, z, <-1, 1, -1, 1>, 0)
