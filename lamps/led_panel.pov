@@ -3,8 +3,8 @@
 // radiance in W/(sr m2), a third of a watt of light.
 // It calls for nothing: the diodes' light meets the board at grazing angles, and the frame is
 // black. (Of the diodes' domes rays see what is above the board.)
-// The diodes shine to all sides, of which `bakeslab check` warns, as it does of the rectangle's
-// edge, where the last diodes are; 7 % of the light is beyond slope 4, 76 degrees.
+// The diodes shine to all sides, of which `bakeslab check` warns: 7 % of the light is beyond slope
+// 4, 76 degrees.
 // Bake: bakeslab bake led_panel.pov -o led_panel.tif --uv 32x32 --st 32x32 --rays 64
 // Use: object { Led_Panel_Canned(1, 1) translate 60*y }
 // Licence: CC0

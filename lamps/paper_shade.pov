@@ -4,8 +4,7 @@
 // It calls for interreflection: paper lets half of its light through and gives most of the rest
 // back to the inside.
 // Pages: 1 to 4 the sides (towards +z, +x, -z, -x), 5 above, 6 below. From a shade in the middle
-// all light leaves a cube this wide within the windows, so nothing is cut off; where
-// `bakeslab check` warns of a rectangle's edge, the light goes on through the next page.
+// all light leaves a cube this wide within the windows, so nothing is cut off.
 // Bake: bakeslab bake paper_shade.pov -o paper_shade.tif --uv 12x12 --st 48x48
 // Use: object { Paper_Shade_Canned(1, 1) translate 150*y }, with nothing inside the cube
 // Licence: CC0
