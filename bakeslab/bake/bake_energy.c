@@ -343,10 +343,13 @@ static void warn(const struct bake_work *work, const struct bake_energy *energy,
   if (energy->missed > most_missed)
     warnings_add(warnings,
                  "the pages miss %s %% of the light: %s %% leaves beyond their windows, %s %% "
-                 "beside them; enlarge those in Canned_Slab%s",
+                 "beside them; %s",
                  two_digits(100 * energy->missed, text[0]), two_digits(percent * window, text[1]),
                  two_digits(percent * beside, text[2]),
-                 work->options->window_auto ? "" : ", or bake with --window auto");
+                 beside > window ? "enlarge the rectangles in Canned_Slab, or add pages"
+                 : work->options->window_auto
+                     ? "enlarge the windows in Canned_Slab"
+                     : "enlarge the windows in Canned_Slab, or bake with --window auto");
 }
 
 enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,
