@@ -32,7 +32,7 @@ static const struct argp_option options_list[] = {
      "0, the end not included. May be given for both.",
      0},
     {"sharpen", KEY(sharpen), "st", 0,
-     "The only value is st: after all that, sharpen along s and t, so that the interpolated "
+     "The only value is st: after all else, sharpen along s and t, so that the interpolated "
      "radiance keeps the means over cells that the samples are",
      0},
     {"positive", KEY(positive), NULL, 0,

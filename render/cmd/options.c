@@ -86,7 +86,8 @@ static const struct argp_option sum_options[] = {
      "tolerance of 0.003 or more)",
      0},
     {"shadow-edge", OPTION_SHADOW_EDGE, "N", 0,
-     "and at edges of shadows in parts of 1/N of its sides (default 256; 64 where blocks are 8)",
+     "At edges of shadows, shadow rays look at parts of 1/N of an aperture's sides (default 256; "
+     "64 where blocks are 8)",
      0},
     {"shadow-map", OPTION_SHADOW_MAP, "N", 0,
      "Method gl: shadow maps of N x N texels (default 2048)", 0},

@@ -14,7 +14,8 @@ static const struct argp_option options_list[] = {
      "'from=X,Y,Z at=X,Y,Z [up=X,Y,Z] [fov=DEG]'; fov is the horizontal angle (default 60). Or the "
      "name of a glTF file's camera",
      0},
-    {"size", OPTION_SIZE, "WxH", 0, "Of the picture, in pixels (default 640x480)", 0},
+    {"size", OPTION_SIZE, "WxH", 0,
+     "Of the picture, in pixels (default 640x480; 160x120 of tradeoff)", 0},
     {"background", OPTION_BACKGROUND, "R,G,B", 0, "Radiance where nothing is (default 0,0,0)", 0},
     {0}};
 
