@@ -29,7 +29,9 @@ enum { PROBE_RAYS = 4 };
 enum { DISTANCES = 3 };
 static const double distances[DISTANCES] = {1, 2, 8};
 
-static const int uv_ladder[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
+/* Not less than 4 positions: all directions of a view are seen from the same few places of the
+ * aperture, one a ray, and the noise of too few places is larger than any tolerance. */
+static const int uv_ladder[] = {4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
 static const int st_ladder[] = {8,  12, 16,  20,  24,  32,  40,  48, 64,
                                 80, 96, 128, 160, 192, 256, 384, 512};
 
