@@ -3,41 +3,73 @@
  * 1. Two small bakes of different numbers of rays give the CPU time of a process before its first
  *    ray (parsing, photons, most of radiosity's samples) and of each ray.
  * 2. The batches are as full as bake_plan.c makes them.
- * 3. Memory is that of the sums (bake_sum.c) and the samples, and of POV-Ray for each job. */
+ * 3. Memory is that of the sums (bake_sum.c) and the samples, and of POV-Ray for each job.
+ * 4. The small bakes, written as the slab will be, give the bytes of a row of t and of a sample:
+ *    dark and smooth lamps are packed ten times as tight as noisy ones. */
 #include "bake/bake_estimate.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
 
+#include "base/files.h"
 #include "file/slab_file.h"
 #include "probe/probe_bake.h"
 
 enum { SUM_BYTES = 60, BATCH_RAYS = 1 << 20 };
-static const double program_bytes = 10e6, povray_bytes = 60e6, povray_ray_bytes = 45,
+/* Of the small bakes: positions, and directions of the first and the second, along an axis. */
+enum { POSITIONS = 4, FEW = 16, MANY = 64, PROBE_RAYS = 2 };
+static const double program_bytes = 10e6, povray_bytes = 20e6, povray_ray_bytes = 45,
                     idle_seconds = 0.5;
 
+/* The bytes of a view in a file of such pages. */
+static enum result measure_bytes(const struct bake_work *work, const struct probe_bake *bake,
+                                 double *bytes, struct error *error) {
+  const char *output = work->options->output, *dot = strrchr(output, '.');
+  char *scratch = NULL, *path = NULL;
+  struct stat file;
+  enum result result = bake_store_scratch(work->store, &scratch, error);
+  if (result != RESULT_OK) goto out;
+  path = files_join(scratch, dot && !strcasecmp(dot, ".exr") ? "slab.exr" : "slab.tif");
+  result = path ? slab_file_write(path, bake->pages, bake->count, work->options->precision, error)
+                : result_no_memory(error);
+  if (result == RESULT_OK && stat(path, &file) != 0)
+    result = result_fail(error, RESULT_IO, "%s: cannot read", path);
+  if (result == RESULT_OK) *bytes = (double)file.st_size / (POSITIONS * POSITIONS * bake->count);
+  files_remove_tree(scratch);
+out:
+  free(path);
+  free(scratch);
+  return result;
+}
+
 static enum result measure(const struct bake_work *work, int directions, double *cpu, double *rays,
-                           struct bake_report *report, struct error *error) {
-  const int samples[SLAB_AXES] = {4, 4, directions, directions};
+                           double *bytes, struct bake_report *report, struct error *error) {
+  const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, directions, directions};
   struct probe_bake bake = {0};
   enum result result =
-      probe_bake(work, work->slabs, work->look.effects, samples, 2, &bake, report, error);
+      probe_bake(work, work->slabs, work->look.effects, samples, PROBE_RAYS, &bake, report, error);
+  if (result == RESULT_OK) result = measure_bytes(work, &bake, bytes, error);
   *cpu = bake.cpu;
   probe_bake_free(&bake);
-  *rays = 2.0 * 16 * directions * directions * work->lamp->slab_count;
+  *rays =
+      (double)PROBE_RAYS * POSITIONS * POSITIONS * directions * directions * work->lamp->slab_count;
   return result;
 }
 
 enum result bake_estimate(const struct bake_work *work, struct bake_estimate *estimate,
                           struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
-  double cpu[2], rays[2];
+  double cpu[2], rays[2], bytes[2];
   *estimate = (struct bake_estimate){0};
   for (int n = 0; n < work->lamp->slab_count; ++n)
     estimate->samples += (double)slab_sample_count(&work->slabs[n]);
   estimate->rays = estimate->samples * options->rays;
-  enum result result = measure(work, 16, &cpu[0], &rays[0], report, error);
-  if (result == RESULT_OK) result = measure(work, 64, &cpu[1], &rays[1], report, error);
+  enum result result = measure(work, FEW, &cpu[0], &rays[0], &bytes[0], report, error);
+  if (result == RESULT_OK)
+    result = measure(work, MANY, &cpu[1], &rays[1], &bytes[1], report, error);
   if (result != RESULT_OK) return result;
   double per_ray = fmax(0, (cpu[1] - cpu[0]) / (rays[1] - rays[0]));
   double first = fmax(0, cpu[0] - per_ray * rays[0]);
@@ -46,11 +78,21 @@ enum result bake_estimate(const struct bake_work *work, struct bake_estimate *es
       (batches * (first + idle_seconds) + estimate->rays * per_ray) / jobs / options->shards;
   estimate->memory = program_bytes + SUM_BYTES * estimate->samples +
                      jobs * (povray_bytes + povray_ray_bytes * fmin(BATCH_RAYS, estimate->rays));
-  enum slab_precision precision = slab_file_precision_of(options->output, options->precision);
-  estimate->bytes = estimate->samples * (precision == SLAB_PRECISION_LOGLUV ? 1
-                                         : precision == SLAB_PRECISION_HALF ? 4
-                                                                            : 8);
+  double sample_bytes =
+      fmax(0, (bytes[1] - bytes[0] * MANY / FEW) / ((double)MANY * MANY - MANY * FEW));
+  double row_bytes = fmax(0, bytes[1] - sample_bytes * MANY * MANY) / MANY;
+  for (int n = 0; n < work->lamp->slab_count; ++n) {
+    const int *samples = work->slabs[n].samples;
+    double rows = (double)samples[SLAB_U] * samples[SLAB_V] * samples[SLAB_T];
+    estimate->bytes += rows * (row_bytes + sample_bytes * samples[SLAB_S]);
+  }
   return RESULT_OK;
+}
+
+/* To two digits, for %g to print without an exponent. */
+static double rounded(double x) {
+  double unit = x > 0 ? pow(10, floor(log10(x)) - 1) : 1;
+  return unit * round(x / unit);
 }
 
 void bake_estimate_say(const struct bake_work *work, const struct bake_estimate *estimate,
@@ -58,15 +100,15 @@ void bake_estimate_say(const struct bake_work *work, const struct bake_estimate 
   const int *n = work->slabs[0].samples;
   char time[64];
   if (estimate->seconds < 120)
-    snprintf(time, sizeof time, "some %.2g s", estimate->seconds);
+    snprintf(time, sizeof time, "some %.6g s", rounded(estimate->seconds));
   else if (estimate->seconds < 7200)
-    snprintf(time, sizeof time, "some %.2g min", estimate->seconds / 60);
+    snprintf(time, sizeof time, "some %.6g min", rounded(estimate->seconds / 60));
   else
-    snprintf(time, sizeof time, "some %.2g h", estimate->seconds / 3600);
+    snprintf(time, sizeof time, "some %.6g h", rounded(estimate->seconds / 3600));
   snprintf(line, BAKE_ESTIMATE_LINE,
            "%d page%s of %d x %d x %d x %d samples (%s); %.3g rays; time %s with %d job%s, memory "
-           "%.2g MB, file %.2g MB",
+           "%.6g MB, file %.6g MB",
            work->lamp->slab_count, work->lamp->slab_count == 1 ? "" : "s", n[0], n[1], n[2], n[3],
            why, estimate->rays, time, work->options->jobs, work->options->jobs == 1 ? "" : "s",
-           estimate->memory / 1e6, estimate->bytes / 1e6);
+           rounded(estimate->memory / 1e6), rounded(estimate->bytes / 1e6));
 }

@@ -109,6 +109,18 @@ cube='Canned_Needs("")
   # Again, from the small bakes that the first one kept.
   run -0 --separate-stderr bake flat.pov -o x.tif --uv 256 --st 128 --rays 1024 --dry-run
   [[ $stderr == *"; time some "*" h with "* ]]
+  # The file's size, of a lamp that is dark beside its beam, packed well, and of a noisy one.
+  local lamp told
+  printf '#version 3.7;\n#include "canned.inc"\nCanned_Lamp("noisy") Canned_Needs("")
+    Canned_Slab(0, <2, 0, 0>, <0, 2, 0>, <0, 0, 1>, <-1, 1, -1, 1>, 0)
+    plane { z, -2 pigment { bozo scale 0.01 color_map { [0 rgb 0] [1 rgb 9] } } finish { emission 1 } }' >noisy.pov
+  sed 's/plane .*/sphere { -9*z, 1 pigment { rgb 1 } finish { emission 1 } }/' noisy.pov >dark.pov
+  for lamp in noisy dark; do
+    told=$("$BAKESLAB" bake $lamp.pov -o $lamp.tif --uv 8 --st 32 --rays 4 --dry-run 2>&1 | sed -n 's/.*, file \(.*\) MB/\1/p')
+    bake $lamp.pov -q -o $lamp.tif --uv 8 --st 32 --rays 4
+    echo "$lamp $told $(wc -c <$lamp.tif)"
+    awk -v told="$told" -v bytes="$(wc -c <$lamp.tif)" 'BEGIN { ratio = told*1e6/bytes; exit !(ratio > 0.5 && ratio < 2) }'
+  done
   sed 's/"flat"/"7 flat"/' flat.pov >name.pov
   refused 1 'name.pov: Canned_Lamp: ' x.exr bake name.pov -o x.exr --uv 2 --st 4
 }
