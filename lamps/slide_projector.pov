@@ -67,10 +67,11 @@ union {
   rotate 180*z
   translate -Back*z
 }
-// All round it is black.
+// All round it is black, and closed: light leaves through the tube alone.
 difference {
   box { <-5, -5, -13>, <5, 5, -4> }
-  box { <-4.9, -4.9, -12.9>, <4.9, 4.9, -3> }
+  box { <-4.9, -4.9, -12.9>, <4.9, 4.9, -4.1> }
+  cylinder { -5*z, -3*z, 2.3 }
   texture { Black }
 }
 
