@@ -32,7 +32,9 @@ static const char doc[] =
     "  point    the far field: one light, and an image\n"
     "  auto     the one that is cheapest for POV-Ray within the tolerance\n"
     "Errors are relative RMS differences of the irradiance on planes at the distance, and "
-    "distances in widths of the aperture (its longer edge).\n"
+    "distances in widths of the aperture (its longer edge). With auto the tolerance holds also in "
+    "the shadow of an edge half way between aperture and plane; the choice takes about as long as "
+    "the bake took or less, or some seconds.\n"
     "\n"
     "Examples:\n"
     "  bakeslab include desk_lamp.tif -o desk_lamp.inc\n"
@@ -164,6 +166,19 @@ static enum result write_files(const struct include_choice *choice, const struct
   return result;
 }
 
+static enum result choose(const struct arguments *arguments, const struct slab *slabs, int count,
+                          struct include_choice *choice, struct error *error) {
+  struct progress progress;
+  const struct include_wish wish = {.modes = arguments->modes,
+                                    .tolerance = arguments->tolerance,
+                                    .distance = arguments->distance,
+                                    .progress = &progress};
+  progress_start(&progress, cli_quiet(), 0);
+  enum result result = include_choose(slabs, count, &wish, choice, error);
+  progress_end(&progress);
+  return result;
+}
+
 /* The lamp's name in POV-Ray, the slab's unless --name gives another, and its lights. */
 static enum result make_lights(const struct arguments *arguments, const struct slab *slabs,
                                int count, char name[SDL_IDENTIFIER_SIZE],
@@ -176,7 +191,7 @@ static enum result make_lights(const struct arguments *arguments, const struct s
   if (result != RESULT_OK)
     advice = "; give one with --name";
   else if (arguments->tolerance > 0)
-    result = include_choose(slabs, count, modes, arguments->tolerance, distance, choice, error);
+    result = choose(arguments, slabs, count, choice, error);
   else
     result = include_make(slabs, count, (enum include_mode)modes, lights, distance, choice, error);
   if (result == RESULT_OK) return result;

@@ -2,12 +2,15 @@
  *
  * 1. Each kind makes offers: the far field one; the sheet one for each number of lights, from
  *    all of them halved down to one an axis; the cluster one, as small as the tolerance allows.
+ *    Where all kinds are asked for, the cluster's fit, by far the longest, is bounded by the size
+ *    of the bake, in counted work: the same lights on any machine.
  * 2. An offer's cost is the time that POV-Ray takes for it at a shaded point; its error the
  *    relative RMSE of the irradiance on a plane at the distance, of the worst page: by plane_errors
  *    for the sheet and the far field, by cluster_error for the cluster, each against the integral
- *    of the quadrilinear slab (plane.h).
- * 3. The cheapest offer within the tolerance is taken; if there is none, the error says which
- *    comes closest. */
+ *    of the quadrilinear slab (plane.h). Its shadow's error is the same past an edge half way
+ *    (plane_shadow.h).
+ * 3. The cheapest offer within the tolerance is taken, by its shadow, too, where all kinds are
+ *    asked for; if there is none, the error says which comes closest. */
 #include "include/include_choose.h"
 
 #include <math.h>
@@ -15,16 +18,28 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "file/slab_json.h"
+
 /* Microseconds that POV-Ray 3.7 takes for each shaded point: for a light of the sheet,
  * a spotlight, of which the cluster's area lights are made, the far field's light. Their
  * ratios count. */
 static const double sheet_cost = 1.1, spot_cost = 0.08, point_cost = 0.8;
 
+/* How long the cluster's fit may take, by what some work (cluster_fit.h) takes: as long as the
+ * quickest of lamps, without radiosity or photons, takes for the slab's rays on one core, and no
+ * less than a few seconds. */
+static const double ray_seconds = 1e-6, least_seconds = 8, work_seconds = 30e-9;
+
+/* An opening that is seen under more, in degrees, throws soft shadows. */
+static const double soft_angle = 1;
+
 /* One way to make the include. */
 struct offer {
   int mode;           /* an include_mode */
   int lights, points; /* an axis for the sheet, in all for the cluster */
-  double cost, error;
+  bool cut_short;     /* the cluster's fit was */
+  double cost, error, shadow;
+  double worst; /* what the tolerance is for: the error, or the larger of both */
 };
 
 struct offers {
@@ -48,6 +63,7 @@ static void offer_sheets(const struct sheet *sheet, struct offers *offers) {
       const struct sheet_level *level = level_for(&sheet->pages[p], lights);
       offer.cost += sheet_cost * level->lit;
       offer.error = fmax(offer.error, level->error_at);
+      offer.shadow = fmax(offer.shadow, level->shadow_at);
     }
     offers->list[offers->count++] = offer;
     if (lights == 1) return;
@@ -55,9 +71,12 @@ static void offer_sheets(const struct sheet *sheet, struct offers *offers) {
 }
 
 static void offer_cluster(const struct cluster *cluster, struct offers *offers) {
-  struct offer offer = {.mode = INCLUDE_CLUSTER, .lights = cluster_light_count(cluster)};
+  struct offer offer = {.mode = INCLUDE_CLUSTER,
+                        .lights = cluster_light_count(cluster),
+                        .cut_short = cluster->cut_short};
   for (int p = 0; p < cluster->page_count; ++p) {
     offer.error = fmax(offer.error, cluster->pages[p].error_at);
+    offer.shadow = fmax(offer.shadow, cluster->pages[p].shadow_at);
     offer.points += cluster_page_points(&cluster->pages[p]);
   }
   offer.cost = spot_cost * offer.points;
@@ -74,7 +93,9 @@ static void describe(const struct offer *offer, char *text, size_t size) {
   else
     snprintf(what, sizeof what, "point");
   if (isfinite(offer->error))
-    snprintf(text, size, "%s: %.2g %% off, cost %.3g", what, 100 * offer->error, offer->cost);
+    snprintf(text, size, "%s: %.2g %% off, %.2g %% in the shadow of an edge half way, cost %.3g%s",
+             what, 100 * offer->error, 100 * offer->shadow, offer->cost,
+             offer->cut_short ? ", its fit cut short" : "");
   else
     snprintf(text, size, "%s: stands farther away", what);
 }
@@ -86,8 +107,8 @@ static const struct offer *best_of(const struct offers *offers, int modes, doubl
   for (int k = 0; k < offers->count; ++k) {
     const struct offer *offer = &offers->list[k];
     if (!(offer->mode & modes)) continue;
-    bool cheaper = best && offer->error <= tolerance && offer->cost < best->cost;
-    if (!best || (best->error <= tolerance ? cheaper : offer->error < best->error)) best = offer;
+    bool cheaper = best && offer->worst <= tolerance && offer->cost < best->cost;
+    if (!best || (best->worst <= tolerance ? cheaper : offer->worst < best->worst)) best = offer;
   }
   return best;
 }
@@ -95,10 +116,15 @@ static const struct offer *best_of(const struct offers *offers, int modes, doubl
 /* The choice, and the best offers of the other kinds. */
 static void explain(const struct offers *offers, const struct offer *chosen, double tolerance,
                     double distance, char *why, size_t size) {
-  char text[128];
+  char text[192];
+  double angle = 2 * atan(0.5 / distance) * 180 / M_PI;
   describe(chosen, text, sizeof text);
   size_t used = (size_t)snprintf(why, size, "at %g aperture widths, with %g %% allowed, %s",
                                  distance, 100 * tolerance, text);
+  if (chosen->mode != INCLUDE_CLUSTER && chosen->lights == 1 && angle > soft_angle)
+    used +=
+        (size_t)snprintf(why + used, size - used,
+                         " (hard shadows, though the opening is seen under %.2g degrees)", angle);
   for (int mode = 1; mode <= INCLUDE_POINT; mode *= 2) {
     const struct offer *other = best_of(offers, mode & ~chosen->mode, tolerance);
     if (!other || used >= size) continue;
@@ -109,7 +135,7 @@ static void explain(const struct offers *offers, const struct offer *chosen, dou
 
 static enum result none_meets(const struct offer *closest, double tolerance, double distance,
                               struct error *error) {
-  char text[128];
+  char text[192];
   if (!closest || !isfinite(closest->error))
     return result_fail(error, RESULT_BAD,
                        "sheets stand farther away than %g aperture widths; ask for a larger "
@@ -119,31 +145,78 @@ static enum result none_meets(const struct offer *closest, double tolerance, dou
   return result_fail(error, RESULT_BAD,
                      "no light is within %g at %g aperture widths; closest is the %s: ask for "
                      "--tolerance %.2g",
-                     tolerance, distance, text, 1.05 * closest->error);
+                     tolerance, distance, text, 1.05 * closest->worst);
 }
 
-enum result include_choose(const struct slab *slabs, int count, int modes, double tolerance,
-                           double distance, struct include_choice *choice, struct error *error) {
-  struct offers offers = {.count = 0};
+/* All pages' rays of the bake, as far as their provenance tells. */
+static enum result count_rays(const struct slab *slabs, int count, double *rays,
+                              struct error *error) {
+  *rays = 0;
+  for (int n = 0; n < count; ++n) {
+    json_t *root = NULL;
+    enum result result = slab_json_root(&slabs[n], &root, error);
+    if (result != RESULT_OK) return result;
+    json_t *a_sample = json_object_get(json_object_get(root, "provenance"), "rays");
+    *rays += fmax(0, json_number_value(a_sample)) * (double)slab_sample_count(&slabs[n]);
+    json_decref(root);
+  }
+  return RESULT_OK;
+}
+
+static enum result choose_cluster(const struct slab *slabs, int count,
+                                  const struct include_wish *wish, struct cluster *cluster,
+                                  struct error *error) {
+  bool all_kinds = wish->modes == INCLUDE_ANY;
+  double rays = 0;
+  enum result result = count_rays(slabs, count, &rays, error);
+  if (result != RESULT_OK) return result;
+  const struct cluster_wish fit = {
+      .tolerance = wish->tolerance,
+      .distance = wish->distance,
+      .shadows = all_kinds,
+      .work = all_kinds ? fmax(least_seconds, ray_seconds * rays) / work_seconds : 0,
+      .progress = wish->progress};
+  return cluster_make(slabs, count, &fit, cluster, error);
+}
+
+static enum result make_offers(const struct slab *slabs, int count, const struct include_wish *wish,
+                               struct include_choice *choice, struct offers *offers,
+                               struct error *error) {
+  double distance = wish->distance;
   enum result result = RESULT_OK;
-  memset(choice, 0, sizeof *choice);
-  if (modes & INCLUDE_POINT) {
+  if (wish->modes & INCLUDE_POINT) {
     result = point_make(slabs, count, distance, &choice->point, error);
     if (result == RESULT_OK)
-      offers.list[offers.count++] = (struct offer){
-          .mode = INCLUDE_POINT, .lights = 1, .cost = point_cost, .error = choice->point.error_at};
+      offers->list[offers->count++] = (struct offer){.mode = INCLUDE_POINT,
+                                                     .lights = 1,
+                                                     .cost = point_cost,
+                                                     .error = choice->point.error_at,
+                                                     .shadow = choice->point.shadow_at};
   }
-  if (result == RESULT_OK && modes & INCLUDE_SHEET) {
+  if (result == RESULT_OK && wish->modes & INCLUDE_SHEET) {
     result = sheet_make(slabs, count, 0, distance, &choice->sheet, error);
-    if (result == RESULT_OK) offer_sheets(&choice->sheet, &offers);
+    if (result == RESULT_OK) offer_sheets(&choice->sheet, offers);
   }
-  if (result == RESULT_OK && modes & INCLUDE_CLUSTER) {
-    result = cluster_make(slabs, count, 0, tolerance, distance, &choice->cluster, error);
-    if (result == RESULT_OK) offer_cluster(&choice->cluster, &offers);
+  if (result == RESULT_OK && wish->modes & INCLUDE_CLUSTER) {
+    result = choose_cluster(slabs, count, wish, &choice->cluster, error);
+    if (result == RESULT_OK) offer_cluster(&choice->cluster, offers);
   }
+  for (int k = 0; k < offers->count; ++k) {
+    struct offer *offer = &offers->list[k];
+    offer->worst = wish->modes == INCLUDE_ANY ? fmax(offer->error, offer->shadow) : offer->error;
+  }
+  return result;
+}
+
+enum result include_choose(const struct slab *slabs, int count, const struct include_wish *wish,
+                           struct include_choice *choice, struct error *error) {
+  struct offers offers = {.count = 0};
+  double tolerance = wish->tolerance, distance = wish->distance;
+  memset(choice, 0, sizeof *choice);
+  enum result result = make_offers(slabs, count, wish, choice, &offers, error);
   if (result != RESULT_OK) return result;
-  const struct offer *chosen = best_of(&offers, modes, tolerance);
-  if (!chosen || !(chosen->error <= tolerance))
+  const struct offer *chosen = best_of(&offers, wish->modes, tolerance);
+  if (!chosen || !(chosen->worst <= tolerance))
     return none_meets(chosen, tolerance, distance, error);
   choice->mode = (enum include_mode)chosen->mode;
   explain(&offers, chosen, tolerance, distance, choice->why, sizeof choice->why);
@@ -158,7 +231,9 @@ enum result include_make(const struct slab *slabs, int count, enum include_mode 
   choice->mode = mode;
   switch (mode) {
   case INCLUDE_CLUSTER:
-    return cluster_make(slabs, count, lights, 0, distance, &choice->cluster, error);
+    return cluster_make(slabs, count,
+                        &(struct cluster_wish){.lights = lights, .distance = distance},
+                        &choice->cluster, error);
   case INCLUDE_POINT:
     return point_make(slabs, count, distance, &choice->point, error);
   default:

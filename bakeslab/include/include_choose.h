@@ -15,15 +15,22 @@ struct include_choice {
   struct sheet sheet;
   struct cluster cluster;
   struct point point;
-  char why[512]; /* one line; empty where there was no choice */
+  char why[768]; /* one line; empty where there was no choice */
 };
 
-/* Of the kinds in `modes`, the cheapest for POV-Ray whose irradiance is `tolerance`
- * (relative RMSE) or less off on planes at `distance`, in aperture widths, from each
- * page; with as few lights as that allows. Refuses a tolerance that none meets, and
- * says which comes closest. Free with include_choice_free, also after a failure. */
-enum result include_choose(const struct slab *slabs, int count, int modes, double tolerance,
-                           double distance, struct include_choice *choice, struct error *error);
+struct include_wish {
+  int modes;                  /* that may be made */
+  double tolerance, distance; /* distance in aperture widths */
+  struct progress *progress;  /* or NULL */
+};
+
+/* Of the kinds that may be made, the cheapest for POV-Ray whose irradiance is the tolerance
+ * (relative RMSE) or less off on planes at the distance from each page; with as few lights as
+ * that allows. Among all kinds also past an edge half way, and in bounded time. Refuses a
+ * tolerance that none meets, and says which comes closest. Free with include_choice_free, also
+ * after a failure. */
+enum result include_choose(const struct slab *slabs, int count, const struct include_wish *wish,
+                           struct include_choice *choice, struct error *error);
 
 /* One kind with a number of lights: an axis for the sheet (0: all), in all for the
  * cluster, which is fitted for `distance`. */

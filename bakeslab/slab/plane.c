@@ -26,24 +26,36 @@ static int quadrature_points(const struct slab *slab, int axis, double distance)
   return 2 * cells * (cells < MOST_POINTS / 4 && half < 2 ? 2 : half);
 }
 
-void plane_irradiance(const struct slab *slab, const int points[2], const double at[2],
-                      double distance, double rgb[3]) {
+/* The share of a cell about `middle` that lies below `until`. */
+static double share_below(double middle, double size, double until) {
+  return fmin(fmax((until - middle) / size + 0.5, 0), 1);
+}
+
+void plane_irradiance_until(const struct slab *slab, const int points[2], const double until[2],
+                            const double at[2], double distance, double rgb[3]) {
   double kappa = slab_kappa(slab);
   double du = plane_edge(slab, SLAB_U) / points[0], dv = plane_edge(slab, SLAB_V) / points[1];
   rgb[0] = rgb[1] = rgb[2] = 0;
   for (int j = 0; j < points[1]; ++j) {
     double b = (j + 0.5 - 0.5 * points[1]) * dv, y = at[1] - b;
-    double t = y / distance + kappa * b;
-    if (t < slab->st_window[2] || t > slab->st_window[3]) continue;
+    double t = y / distance + kappa * b, below = share_below(b, dv, until[1]);
+    if (t < slab->st_window[2] || t > slab->st_window[3] || below == 0) continue;
     for (int i = 0; i < points[0]; ++i) {
       double a = (i + 0.5 - 0.5 * points[0]) * du, x = at[0] - a;
-      double radiance[3];
+      double radiance[3], share = below * share_below(a, du, until[0]);
+      if (share == 0) break;
       slab_lookup(slab, a, b, x / distance + kappa * a, t, radiance);
       double r2 = x * x + y * y + distance * distance;
-      double weight = distance * distance / r2 * (du * dv / r2); /* tiny lengths, too */
+      double weight = share * distance * distance / r2 * (du * dv / r2); /* tiny lengths, too */
       for (int c = 0; c < 3; ++c) rgb[c] += weight * radiance[c];
     }
   }
+}
+
+void plane_irradiance(const struct slab *slab, const int points[2], const double at[2],
+                      double distance, double rgb[3]) {
+  static const double all[2] = {INFINITY, INFINITY};
+  plane_irradiance_until(slab, points, all, at, distance, rgb);
 }
 
 struct plane plane_make(const struct slab *slab, double distance, double margin, int most) {

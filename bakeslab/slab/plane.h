@@ -33,6 +33,10 @@ double plane_fan_step(const struct plane *plane);
 void plane_irradiance(const struct slab *slab, const int points[2], const double at[2],
                       double distance, double rgb[3]);
 
+/* The same of those that lie below `until` along u and v; a cell that it cuts counts in part. */
+void plane_irradiance_until(const struct slab *slab, const int points[2], const double until[2],
+                            const double at[2], double distance, double rgb[3]);
+
 /* The irradiance that approximation `k` of `of` gives to a receiver at (x, y, z). */
 typedef void plane_approximation(const void *of, int k, const double at[3], double rgb[3]);
 

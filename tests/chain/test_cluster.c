@@ -101,7 +101,8 @@ static struct cluster fit(const struct slab *pages, int count, int lights) {
   char options[64];
   snprintf(options, sizeof options, "--mode cluster --lights %d", lights);
   chain_include(pages, count, "lamp", options);
-  if (cluster_make(pages, count, lights, 0, 4, &cluster, &error) != RESULT_OK)
+  if (cluster_make(pages, count, &(struct cluster_wish){.lights = lights, .distance = 4}, &cluster,
+                   &error) != RESULT_OK)
     fail_msg("%s", error.text);
   return cluster;
 }

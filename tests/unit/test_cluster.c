@@ -40,7 +40,9 @@ static void fill(struct slab *slab, double (*radiance)(const double abst[4], int
 static struct cluster fit(const struct slab *slab, int lights) {
   struct cluster cluster;
   struct error error;
-  assert_ok(cluster_make(slab, 1, lights, 0, 4, &cluster, &error), &error);
+  assert_ok(cluster_make(slab, 1, &(struct cluster_wish){.lights = lights, .distance = 4}, &cluster,
+                         &error),
+            &error);
   return cluster;
 }
 
@@ -313,19 +315,24 @@ TEST(test_refusals) {
   struct error error;
   struct cluster cluster;
   struct point point;
-  assert_refused(cluster_make(&slab, 1, 4, 0, 4, &cluster, &error), &error, "all radiance is zero",
-                 NULL);
+  assert_refused(
+      cluster_make(&slab, 1, &(struct cluster_wish){.lights = 4, .distance = 4}, &cluster, &error),
+      &error, "all radiance is zero", NULL);
   cluster_free(&cluster);
   assert_refused(point_make(&slab, 1, 4, &point, &error), &error, "all radiance is zero", NULL);
   point_free(&point);
   slab.rgb[0] = 1;
   slab.rgb[7] = -1;
-  assert_refused(cluster_make(&slab, 1, 4, 0, 4, &cluster, &error), &error, "is negative", NULL);
+  assert_refused(
+      cluster_make(&slab, 1, &(struct cluster_wish){.lights = 4, .distance = 4}, &cluster, &error),
+      &error, "is negative", NULL);
   cluster_free(&cluster);
   assert_refused(point_make(&slab, 1, 4, &point, &error), &error, "is negative", NULL);
   point_free(&point);
   slab.rgb[7] = 3e38F;
-  assert_refused(cluster_make(&slab, 1, 4, 0, 4, &cluster, &error), &error, "1e37", NULL);
+  assert_refused(
+      cluster_make(&slab, 1, &(struct cluster_wish){.lights = 4, .distance = 4}, &cluster, &error),
+      &error, "1e37", NULL);
   cluster_free(&cluster);
   slab_free(&slab);
 }

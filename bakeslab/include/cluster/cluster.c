@@ -13,7 +13,10 @@
  * 6. From one light on, 4 and 5 are done for twice as many, so that more lights are never a worse
  *    start than fewer, up to all of the page's, or until they meet the tolerance or twice as
  *    many help no more. The best are kept.
- * 7. The error is told on receivers that had no part in the fit.
+ * 7. The error is told on receivers that had no part in the fit, and, in the shadow of an edge,
+ *    by plane_shadow.h.
+ * 8. Where the work is bounded, it is counted (cluster_fit.h) and shared evenly among the pages; a
+ *    page's fit ends with the lights that it then has.
  * Nothing is random.
  *
  * [1] Lloyd, "Least squares quantization in PCM", 1982.
@@ -31,6 +34,7 @@
 #include "include/cluster/cluster_fit.h"
 #include "include/cluster/cluster_grow.h"
 #include "include/cluster/cluster_seed.h"
+#include "slab/plane_shadow.h"
 
 const double cluster_distances[CLUSTER_DISTANCES] = {1, 4, 16};
 
@@ -55,19 +59,32 @@ int cluster_page_points(const struct cluster_page *page) {
 /* One page on the way: what it is fitted to. */
 struct work {
   const struct slab *slab;
+  const struct cluster_wish *wish;
   struct cluster_target target, gauge; /* to fit to; to tell the error by */
+  struct plane_shadow shadow;          /* and that in a shadow */
   struct cluster_light *candidates;
   int candidate_count;
+  struct cluster_work effort;
+  double begun, part; /* of all pages' progress: this page's */
 };
 
-static enum result grow_page(const struct work *work, int wanted, struct cluster_page *page,
+/* Work of growing once: what each candidate gives to each receiver, with some points each. */
+static double growing_work(const struct work *work) {
+  double points = 0;
+  for (int k = 0; k < work->candidate_count; ++k)
+    points += work->candidates[k].size[0] * work->candidates[k].size[1];
+  return points * work->target.count;
+}
+
+static enum result grow_page(struct work *work, int wanted, struct cluster_page *page,
                              struct error *error) {
+  work->effort.done += growing_work(work);
   enum result result = cluster_grow(&work->target, work->candidates, work->candidate_count,
                                     page->lights, &page->count, wanted, error);
   /* The second time with the points that the lights then need. */
   for (int times = 0; times < 2 && result == RESULT_OK; ++times) {
     cluster_set_sizes(page->lights, page->count, MOST_POINTS);
-    result = cluster_fit(&work->target, page->lights, &page->count, error);
+    result = cluster_fit(&work->target, page->lights, &page->count, &work->effort, error);
   }
   return result;
 }
@@ -96,44 +113,92 @@ static enum result finish_page(const struct work *work, int number, double dista
   return result;
 }
 
-/* Grows a page up to `lights`, or, where that is 0, until it meets the tolerance or twice
- * the lights help no more; keeps the best on the way. */
-static enum result grow(const struct work *work, int lights, double tolerance,
-                        struct cluster_page *page, struct error *error) {
-  int most = lights > 0 ? lights : CLUSTER_MOST_LIGHTS;
-  struct cluster_page now = {.count = 0};
-  enum result result = RESULT_OK;
-  page->error_at = INFINITY;
-  for (int wanted = 1, idle = 0; result == RESULT_OK;
-       wanted = 2 * wanted < most ? 2 * wanted : most) {
-    result = grow_page(work, wanted, &now, error);
-    if (result != RESULT_OK) break;
-    double reached = cluster_error(&work->gauge, now.lights, now.count, work->target.unit);
-    idle = reached < least_help * page->error_at ? 0 : idle + 1;
-    if (reached < page->error_at) {
-      memcpy(page->lights, now.lights, sizeof now.lights);
-      page->count = now.count;
-      page->error_at = reached;
-    }
-    if (wanted >= most) break;
-    if (lights > 0) continue;
-    if (reached <= tolerance || (idle >= 2 && reached > 2 * tolerance)) break;
+/* The lights that a receiver sees past an edge. */
+static void add_seen(const void *of, int k, const struct plane_shadow_receiver *receiver,
+                     double rgb[3]) {
+  (void)k;
+  const struct cluster_page *page = of;
+  double width = plane_width(&page->frame), until[2], at[3];
+  for (int c = 0; c < 2; ++c) until[c] = receiver->until[c] / width;
+  for (int c = 0; c < 3; ++c) at[c] = receiver->at[c] / width;
+  rgb[0] = rgb[1] = rgb[2] = 0;
+  for (int n = 0; n < page->count; ++n) {
+    double share = cluster_irradiance_until(&page->lights[n], until, at);
+    for (int c = 0; c < 3; ++c) rgb[c] += page->lights[n].rgb[c] * share;
   }
-  return result;
 }
 
-static enum result make_page(const struct slab *slab, int number, int lights, double tolerance,
-                             double distance, struct cluster_page *page, struct error *error) {
-  struct work work = {.slab = slab};
+/* Its shadow's error, before its lights are in the slab's units. */
+static double shadow_error(const struct work *work, const struct cluster_page *page) {
+  struct cluster_page now = *page;
+  now.frame = include_frame(work->slab);
+  for (int k = 0; k < now.count; ++k)
+    for (int c = 0; c < 3; ++c) now.lights[k].rgb[c] *= work->target.unit;
+  return plane_shadow_error(&work->shadow, add_seen, &now, 0);
+}
+
+static void show(const struct work *work) {
+  if (work->wish->progress && isfinite(work->effort.most))
+    progress_show(work->wish->progress,
+                  work->begun + work->part * fmin(work->effort.done / work->effort.most, 1),
+                  "fitting lights");
+}
+
+/* Grows a page up to `lights`, or, where that is 0, until it meets the tolerance or twice
+ * the lights help no more, or there is no work left; keeps the best on the way. */
+static enum result grow(struct work *work, int lights, struct cluster_page *page, bool *cut_short,
+                        struct error *error) {
+  int most = lights > 0 ? lights : CLUSTER_MOST_LIGHTS;
+  double tolerance = work->wish->tolerance, best = INFINITY;
+  struct cluster_page now = {.count = 0};
+  for (int wanted = 1, idle = 0;; wanted = 2 * wanted < most ? 2 * wanted : most) {
+    enum result result = grow_page(work, wanted, &now, error);
+    if (result != RESULT_OK) return result;
+    now.error_at = cluster_error(&work->gauge, now.lights, now.count, work->target.unit);
+    now.shadow_at = shadow_error(work, &now);
+    double reached = work->wish->shadows ? fmax(now.error_at, now.shadow_at) : now.error_at;
+    idle = reached < least_help * best ? 0 : idle + 1;
+    if (reached < best) {
+      memcpy(page->lights, now.lights, sizeof now.lights);
+      page->count = now.count;
+      page->error_at = now.error_at;
+      page->shadow_at = now.shadow_at;
+      best = reached;
+    }
+    show(work);
+    if (wanted >= most) return RESULT_OK;
+    if (lights == 0 && (reached <= tolerance || (idle >= 2 && reached > 2 * tolerance)))
+      return RESULT_OK;
+    if (work->effort.done + growing_work(work) > work->effort.most) {
+      *cut_short = true;
+      return RESULT_OK;
+    }
+  }
+}
+
+/* Page `place` of those with light, `number` of all. */
+static enum result make_page(const struct slab *slab, int number, int place, int lights,
+                             const struct cluster_wish *wish, struct cluster *cluster,
+                             struct error *error) {
+  double distance = wish->distance, pages = cluster->page_count;
+  struct cluster_page *page = &cluster->pages[place];
+  struct work work = {.slab = slab,
+                      .wish = wish,
+                      .effort.most = wish->work > 0 ? wish->work / pages : INFINITY,
+                      .begun = place / pages,
+                      .part = 1 / pages};
   enum result result = cluster_target_make(slab, distance, &work.target, error);
   if (result == RESULT_OK) result = cluster_gauge_make(slab, distance, &work.gauge, error);
+  if (result == RESULT_OK)
+    result = plane_shadow_make(slab, distance * plane_width(slab), &work.shadow, error);
   if (result == RESULT_OK)
     result = cluster_seed(slab, distance, &work.candidates, &work.candidate_count, error);
   for (int k = 0; k < work.candidate_count && result == RESULT_OK; ++k)
     cluster_limit(&work.target, &work.candidates[k]);
-  if (result == RESULT_OK) result = grow(&work, lights, tolerance, page, error);
+  if (result == RESULT_OK) result = grow(&work, lights, page, &cluster->cut_short, error);
   if (result == RESULT_OK) result = finish_page(&work, number, distance, page, error);
   free(work.candidates);
+  plane_shadow_free(&work.shadow);
   cluster_target_free(&work.target);
   cluster_target_free(&work.gauge);
   return result;
@@ -198,19 +263,18 @@ static enum result make_pages(const struct slab *const *lit, int count, struct c
   return result;
 }
 
-enum result cluster_make(const struct slab *slabs, int count, int lights, double tolerance,
-                         double distance, struct cluster *cluster, struct error *error) {
+enum result cluster_make(const struct slab *slabs, int count, const struct cluster_wish *wish,
+                         struct cluster *cluster, struct error *error) {
   int shares[CLUSTER_MOST_PAGES] = {0}, lit_count = 0;
   const struct slab **lit = NULL;
   memset(cluster, 0, sizeof *cluster);
-  cluster->distance = distance;
+  cluster->distance = wish->distance;
   enum result result = include_lit_pages(slabs, count, &cluster->lamp, &lit, &lit_count, error);
-  if (result == RESULT_OK) result = check_counts(lit_count, lights, error);
+  if (result == RESULT_OK) result = check_counts(lit_count, wish->lights, error);
   if (result == RESULT_OK) result = make_pages(lit, lit_count, cluster, error);
-  if (result == RESULT_OK && lights > 0) share_lights(cluster, lights, shares);
+  if (result == RESULT_OK && wish->lights > 0) share_lights(cluster, wish->lights, shares);
   for (int p = 0; p < lit_count && result == RESULT_OK; ++p)
-    result = make_page(lit[p], (int)(lit[p] - slabs), shares[p], tolerance, distance,
-                       &cluster->pages[p], error);
+    result = make_page(lit[p], (int)(lit[p] - slabs), p, shares[p], wish, cluster, error);
   if (result == RESULT_OK) cluster->lamp.stamp = stamp_of(cluster);
   free(lit);
   return result;

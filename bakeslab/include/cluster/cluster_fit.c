@@ -25,7 +25,12 @@ static const double least_gain = 3e-4;
  * edges so many. */
 static const double least_cone = 2, least_edge = 0.25;
 
+/* Of the counted work, what a pair of lights in a row costs in the normal equations, and in the
+ * solution for colours. */
+static const double pair_work = 1.5, colour_work = 0.05;
+
 struct fit {
+  struct cluster_work *work;
   const struct cluster_target *target;
   int count; /* of lights */
   int rows;  /* of receivers and the flux */
@@ -158,6 +163,7 @@ static void make_normal(struct fit *f) {
         f->side[lit[i] * NUMBERS + p] += rest * row[lit[i] * NUMBERS + p];
       for (int j = 0; j <= i; ++j) add_pair(f, lit[i], lit[j], row);
     }
+    f->work->done += pair_work * count * count / 2;
   }
 }
 
@@ -188,16 +194,26 @@ static void accept_trial(struct fit *f) {
   memcpy(f->base_now, f->base, (size_t)f->rows * (size_t)f->count * sizeof *f->base);
 }
 
+/* Of one table of the lights' rows, and of solving for their colours. */
+static double trial_work(const struct fit *f) {
+  double points = 0, n = f->count;
+  for (int k = 0; k < f->count; ++k) points += f->seeds[k].size[0] * f->seeds[k].size[1];
+  return f->rows * (points + colour_work * n * n);
+}
+
 static void refine(struct fit *f) {
   memcpy(f->trial, f->now, (size_t)f->count * sizeof *f->now);
-  double squares = try_numbers(f, f->trial), damping = 1e-2;
+  double squares = try_numbers(f, f->trial), damping = 1e-2, trial = trial_work(f);
   accept_trial(f);
   for (int steps = 0, idle = 0; steps < MOST_STEPS && idle < 4; ++steps) {
+    if (f->work->done > f->work->most) break;
+    f->work->done += 2 * trial;
     fill_jacobian(f);
     make_normal(f);
     double before = squares;
     for (int tries = 0; tries < 12; ++tries, damping *= 4) {
       if (!step(f, damping)) continue;
+      f->work->done += trial;
       double after = try_numbers(f, f->trial);
       if (after >= squares) continue;
       squares = after;
@@ -242,8 +258,9 @@ static void correct_flux(const struct cluster_target *target, struct cluster_lig
 }
 
 enum result cluster_fit(const struct cluster_target *target, struct cluster_light *lights,
-                        int *count, struct error *error) {
-  struct fit f = {.target = target, .count = *count, .rows = target->count + 1, .seeds = lights};
+                        int *count, struct cluster_work *work, struct error *error) {
+  struct fit f = {
+      .work = work, .target = target, .count = *count, .rows = target->count + 1, .seeds = lights};
   if (!allocate(&f)) return result_no_memory(error);
   for (int k = 0; k < *count; ++k) {
     f.now[k] = cluster_to_numbers(&lights[k]);

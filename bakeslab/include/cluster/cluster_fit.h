@@ -4,12 +4,18 @@
 
 #include "include/cluster/cluster_target.h"
 
+/* What the fit has done and may do, in points of lights that were evaluated at receivers, some 30
+ * ns each; what else it does is counted as so many of them. */
+struct cluster_work {
+  double done, most; /* INFINITY: no bound */
+};
+
 /* Keeps a light on the aperture, and its lobe such that the receivers see it. */
 void cluster_limit(const struct cluster_target *target, struct cluster_light *light);
 
-/* Refines the lights, drops those that are dark then, and makes their flux that of the target
- * in each channel. Their rgb are in the target's unit. */
+/* Refines the lights, as long as there is work left, drops those that are dark then, and makes
+ * their flux that of the target in each channel. Their rgb are in the target's unit. */
 enum result cluster_fit(const struct cluster_target *target, struct cluster_light *lights,
-                        int *count, struct error *error);
+                        int *count, struct cluster_work *work, struct error *error);
 
 #endif

@@ -17,6 +17,12 @@ static double lobe(const struct cluster_light *light, double cosine) {
 }
 
 double cluster_irradiance(const struct cluster_light *light, const double at[3]) {
+  static const double all[2] = {INFINITY, INFINITY};
+  return cluster_irradiance_until(light, all, at);
+}
+
+double cluster_irradiance_until(const struct cluster_light *light, const double until[2],
+                                const double at[3]) {
   const double *axis = light->axis;
   double sum = 0, size = sqrt(1 + axis[0] * axis[0] + axis[1] * axis[1]);
   int nu = light->size[0], nv = light->size[1];
@@ -25,6 +31,7 @@ double cluster_irradiance(const struct cluster_light *light, const double at[3])
       double p = (i + 0.5) / nu - 0.5, q = (j + 0.5) / nv - 0.5;
       double x = at[0] - light->center[0] - p * light->edge[0][0] - q * light->edge[1][0];
       double y = at[1] - light->center[1] - p * light->edge[0][1] - q * light->edge[1][1];
+      if (at[0] - x > until[0] || at[1] - y > until[1]) continue;
       double r2 = x * x + y * y + at[2] * at[2], r = sqrt(r2);
       double cosine = (x * axis[0] + y * axis[1] + at[2]) / (r * size);
       if (cosine > light->cos_falloff) sum += lobe(light, cosine) * at[2] / (r2 * r);

@@ -23,6 +23,9 @@ struct cluster_light {
 
 /* Irradiance at (x, y, z) facing the aperture, and flux, of a light of rgb 1. */
 double cluster_irradiance(const struct cluster_light *light, const double at[3]);
+/* The same of those of its points that lie below `until`, along x and y. */
+double cluster_irradiance_until(const struct cluster_light *light, const double until[2],
+                                const double at[3]);
 double cluster_flux(const struct cluster_light *light);
 
 /* What a fit changes. */

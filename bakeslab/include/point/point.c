@@ -14,6 +14,7 @@
 
 #include "file/slab_half.h"
 #include "slab/plane.h"
+#include "slab/plane_shadow.h"
 #include "slab/slab_resample.h"
 
 /* At which errors are told, in aperture widths. */
@@ -199,7 +200,28 @@ static void measure_at(const struct far_page *far, double distance, double *wors
   *worst = fmax(*worst, error);
 }
 
-static void measure(const struct far_lamp *lamp, struct point *point) {
+/* The same past an edge, which hides the light or does not. */
+static void shadowed_irradiance(const void *of, int number,
+                                const struct plane_shadow_receiver *receiver, double rgb[3]) {
+  const struct far_page *far = of;
+  const double light[3] = {-far->shift[0], -far->shift[1], -far->shift[2]};
+  rgb[0] = rgb[1] = rgb[2] = 0;
+  if (!plane_shadow_hides(receiver, light)) far_irradiance(of, number, receiver->at, rgb);
+}
+
+static enum result measure_shadow(const struct far_page *far, struct point *point,
+                                  struct error *error) {
+  struct plane_shadow shadow;
+  double away = point->distance * plane_width(far->slab);
+  enum result result = plane_shadow_make(far->slab, away, &shadow, error);
+  if (result == RESULT_OK)
+    point->shadow_at =
+        fmax(point->shadow_at, plane_shadow_error(&shadow, shadowed_irradiance, far, 0));
+  plane_shadow_free(&shadow);
+  return result;
+}
+
+static enum result measure(const struct far_lamp *lamp, struct point *point, struct error *error) {
   for (int p = 0; p < lamp->count; ++p) {
     struct far_page *far = &lamp->pages[p];
     double from[3];
@@ -210,7 +232,10 @@ static void measure(const struct far_lamp *lamp, struct point *point) {
     far->image = lamp->count == 1 ? point : NULL;
     for (int d = 0; d < POINT_DISTANCES; ++d) measure_at(far, distances[d], &point->error[d]);
     measure_at(far, point->distance, &point->error_at);
+    enum result result = measure_shadow(far, point, error);
+    if (result != RESULT_OK) return result;
   }
+  return RESULT_OK;
 }
 
 /* The pages with light, where the lamp's centre is, and its flux. */
@@ -273,7 +298,7 @@ enum result point_make(const struct slab *slabs, int count, double distance, str
   if (result == RESULT_OK) result = gather(lit, lit_count, &lamp, point, error);
   if (result == RESULT_OK) result = paint(&lamp, point, flux, error);
   if (result == RESULT_OK) result = finish(point, flux, error);
-  if (result == RESULT_OK) measure(&lamp, point);
+  if (result == RESULT_OK) result = measure(&lamp, point, error);
   for (int p = 0; p < lamp.count; ++p) slab_free(&lamp.pages[p].views);
   free(lamp.pages);
   free(lit);

@@ -24,6 +24,7 @@ struct point {
   double error[POINT_DISTANCES]; /* relative RMSE of the irradiance, of the worst page, at the
                                     distances that point.inc.in names */
   double error_at, distance;     /* the same at the distance asked for, in aperture widths */
+  double shadow_at;              /* and there past an edge half way (plane_shadow.h) */
 };
 
 /* Refuses negative radiance, lamps without light and what POV-Ray's numbers cannot

@@ -5,7 +5,7 @@
  *    to one.
  * 2. A level's sheet stands where the tiles of neighbouring lights just do not overlap.
  * 3. A level's error is that of its lights, summed, against the integral of the quadrilinear
- *    slab (plane_errors).
+ *    slab (plane_errors); that in a shadow the same, past an edge half way (plane_shadow.h).
  * 4. All levels' tiles go into one image (sheet_image.c). */
 #include "include/sheet/sheet.h"
 
@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "slab/plane.h"
+#include "slab/plane_shadow.h"
 #include "slab/slab_resample.h"
 
 /* In aperture widths, as the heads of the tables in sheet_page.inc.in say. */
@@ -80,6 +81,28 @@ static void measure(const struct slab *slab, double distance, const struct sheet
     if (page->levels[k].height >= away) errors[k] = INFINITY;
 }
 
+/* The lights that a receiver sees past the edge: whole cells. */
+static void add_seen(const void *levels, int k, const struct plane_shadow_receiver *receiver,
+                     double rgb[3]) {
+  const struct slab *views = &((const struct sheet_level *)levels)[k].views;
+  double until[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    double du = slab_spacing(views, axis), half = plane_edge(views, axis) / 2;
+    until[axis] = du * floor((receiver->until[axis] + half) / du + 0.5) - half;
+  }
+  plane_irradiance_until(views, views->samples, until, receiver->at, receiver->at[2], rgb);
+}
+
+static enum result measure_shadows(const struct slab *slab, double distance,
+                                   struct sheet_page *page, struct error *error) {
+  struct plane_shadow shadow;
+  enum result result = plane_shadow_make(slab, distance * plane_width(slab), &shadow, error);
+  for (int k = 0; k < page->level_count && result == RESULT_OK; ++k)
+    page->levels[k].shadow_at = plane_shadow_error(&shadow, add_seen, page->levels, k);
+  plane_shadow_free(&shadow);
+  return result;
+}
+
 static enum result make_page(const struct slab *slab, int number, int most, double distance,
                              struct sheet_page *page, struct error *error) {
   double errors[SHEET_MOST_LEVELS];
@@ -100,6 +123,10 @@ static enum result make_page(const struct slab *slab, int number, int most, doub
   }
   if (distance > 0) measure(slab, distance, page, errors);
   for (int k = 0; k < page->level_count && distance > 0; ++k) page->levels[k].error_at = errors[k];
+  if (distance > 0) {
+    enum result result = measure_shadows(slab, distance, page, error);
+    if (result != RESULT_OK) return result;
+  }
   return slab_flux_metric(slab, page->flux, error);
 }
 

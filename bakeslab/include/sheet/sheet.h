@@ -30,6 +30,7 @@ struct sheet_level {
   double error[SHEET_DISTANCES]; /* relative RMSE of the irradiance on planes parallel to the
                                     aperture, or INFINITY: the sheet is farther */
   double error_at;               /* the same at the distance asked for */
+  double shadow_at;              /* and past an edge half way (plane_shadow.h) */
 };
 
 struct sheet_page {
