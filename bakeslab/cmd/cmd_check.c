@@ -66,6 +66,13 @@ static void begin_warning(const struct page *page) {
   printf("warning: ");
 }
 
+static void check_compression(const struct page *page) {
+  const char *lossy = slab_file_lossy(page->file, page->number);
+  if (!lossy) return;
+  begin_warning(page);
+  printf("its samples were changed by the lossy compression %s\n", lossy);
+}
+
 static enum result check_flux(const struct page *page, struct error *error) {
   struct flux_box flux;
   enum result result = flux_box_measure(&page->slab, &flux, error);
@@ -133,6 +140,7 @@ static enum result print_accuracy(const struct page *page, struct error *error) 
 
 static enum result check_page(const struct page *page, bool errors, struct error *error) {
   const int *n = page->slab.samples;
+  check_compression(page);
   begin_line(page);
   printf("valid, %d x %d x %d x %d samples\n", n[0], n[1], n[2], n[3]);
   enum result result = check_flux(page, error);
@@ -223,8 +231,8 @@ static const char doc[] =
     "aperture differs from the flux on a closed box around it, an aperture's width (the "
     "longer edge) away, by 1 % more than the uncertainty of the latter, a sum over some "
     "10^6 rays. It counts light twice where more than 1 % of the flux of a page leaves "
-    "through another page's aperture too. What the bake warned of is told again, and that a "
-    "slab gives no light at all.\n\n"
+    "through another page's aperture too. What the bake warned of is told again, that a "
+    "lossy compression changed the samples, and that a slab gives no light at all.\n\n"
     "--error estimates the error of irradiance on a surface that faces the slab, against "
     "the lamp itself, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
     "in brackets): the RMS of the error over the RMS of the irradiance. The estimate needs "

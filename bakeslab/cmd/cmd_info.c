@@ -1,10 +1,9 @@
 /* cmd_info.c - bakeslab info: what a slab is, for people or as JSON. The JSON has an object a page:
- *   page, name, precision, samples, center, u, v, normal, st_window,
- *   st_distance, metres_per_unit, radiance_unit, samples_are,
- *   flux [r, g, b], flux_unit, peak [r, g, b], peak_sample [i, j, k, l],
- *   lowest (the smallest channel value), provenance.
- * Flux is in W or lm where the radiance has such a unit, always with lengths in
- * metres (slab_flux_metric). */
+ *   page, name, precision, lossy (a compression, or null), samples, center, u, v, normal,
+ * st_window, st_distance, metres_per_unit, radiance_unit, samples_are, flux [r, g, b], flux_unit,
+ * peak [r, g, b], peak_sample [i, j, k, l], lowest (the smallest channel value), provenance. Flux
+ * is in W or lm where the radiance has such a unit, always with lengths in metres
+ * (slab_flux_metric). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,6 +30,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
 struct page {
   struct slab slab; /* its samples are freed once they are looked at */
   enum slab_precision precision;
+  const char *lossy; /* of slab_file_lossy; the file's */
   double flux[3], peak[3], lowest;
   int peak_sample[SLAB_AXES];
   json_t *root; /* the page's own JSON */
@@ -54,6 +54,7 @@ static enum result find_figures(struct page *page, struct error *error) {
 static enum result read_page(struct slab_file *file, int number, struct page *page,
                              struct error *error) {
   page->precision = slab_file_precision(file, number);
+  page->lossy = slab_file_lossy(file, number);
   enum result result = slab_file_load(file, number, &page->slab, error);
   if (result == RESULT_OK) result = slab_json_root(&page->slab, &page->root, error);
   if (result == RESULT_OK) result = find_figures(page, error);
@@ -75,10 +76,11 @@ static json_t *describe(const struct page *page, int number) {
   const int *n = slab->samples, *at = page->peak_sample;
   bool infinite = isinf(slab->st_distance);
   return json_pack(
-      "{s:i, s:s, s:s, s:[iiii], s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:s, s:O*, s:o, s:s, s:o, "
+      "{s:i, s:s, s:s, s:s?, s:[iiii], s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:s, s:O*, s:o, s:s, "
+      "s:o, "
       "s:[iiii], s:f, s:O*}",
-      "page", number, "name", slab->name, "precision", cli_precision_name(page->precision),
-      "samples", n[0], n[1], n[2], n[3], "center", numbers(slab->center, 3), "u",
+      "page", number, "name", slab->name, "precision", cli_precision_name(page->precision), "lossy",
+      page->lossy, "samples", n[0], n[1], n[2], n[3], "center", numbers(slab->center, 3), "u",
       numbers(slab->u, 3), "v", numbers(slab->v, 3), "normal", numbers(slab->normal, 3),
       "st_window", numbers(slab->st_window, 4), "st_distance",
       infinite ? json_null() : json_real(slab->st_distance), "metres_per_unit",
@@ -124,8 +126,9 @@ static void print_page(const char *path, const struct page *page, int number, in
   const int *n = slab->samples, *at = page->peak_sample;
   const double *w = slab->st_window, *flux = page->flux, *peak = page->peak;
   printf("%s: page %d of %d: %s\n", path, number, count, slab->name);
-  printf("  %-14s%d x %d x %d x %d, %s\n", "samples", n[0], n[1], n[2], n[3],
-         cli_precision_name(page->precision));
+  printf("  %-14s%d x %d x %d x %d, %s%s%s\n", "samples", n[0], n[1], n[2], n[3],
+         cli_precision_name(page->precision),
+         page->lossy ? ", changed by the lossy compression " : "", page->lossy ? page->lossy : "");
   print_vector("center", slab->center);
   print_vector("u", slab->u);
   print_vector("v", slab->v);

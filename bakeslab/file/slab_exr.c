@@ -1,10 +1,11 @@
 /* slab_exr.c - reads OpenEXR files: scan lines or tiles, half or float, any
- * compression of OpenEXRCore's. A chunk is a block of the raster. */
+ * compression that OpenEXRCore 3.1 decodes: not DWA. A chunk is a block of the raster. */
 #include "file/slab_exr.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <math.h>
 #include <openexr.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,6 +93,52 @@ static enum result check_channels(struct slab_exr *exr, int part, struct error *
   return RESULT_OK;
 }
 
+/* After check_channels. PXR24 rounds floats only, B44 halves only. */
+static enum result check_compression(struct slab_exr *exr, int part, struct error *error) {
+  static const char *const names[EXR_COMPRESSION_LAST_TYPE] = {[EXR_COMPRESSION_PXR24] = "PXR24",
+                                                               [EXR_COMPRESSION_B44] = "B44",
+                                                               [EXR_COMPRESSION_B44A] = "B44A",
+                                                               [EXR_COMPRESSION_DWAA] = "DWAA",
+                                                               [EXR_COMPRESSION_DWAB] = "DWAB"};
+  struct slab_raster *raster = &exr->parts[part].raster;
+  exr_compression_t compression;
+  const exr_attr_chlist_t *channels = NULL;
+  exr_result_t code = exr_get_compression(exr->context, part, &compression);
+  if (code == EXR_ERR_SUCCESS) code = exr_get_channels(exr->context, part, &channels);
+  if (code != EXR_ERR_SUCCESS) return fail(exr, code, error);
+  bool halves = true;
+  for (int k = 0; k < channels->num_channels; ++k)
+    halves = halves && channels->entries[k].pixel_type == EXR_PIXEL_HALF;
+  bool dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
+  bool b44 = compression == EXR_COMPRESSION_B44 || compression == EXR_COMPRESSION_B44A;
+  /* OpenEXRCore 3.1 mixes up the floats of B44 */
+  if (dwa || (b44 && !halves))
+    return result_fail(error, RESULT_BAD,
+                       "is compressed by %s, which is lossy%s and is not read; save it again with "
+                       "ZIP, from the original",
+                       names[compression], b44 ? ", with channels that are not half," : "");
+  bool pxr24 = compression == EXR_COMPRESSION_PXR24;
+  if (b44 || (pxr24 && raster->precision == SLAB_PRECISION_FLOAT))
+    raster->lossy = names[compression];
+  return RESULT_OK;
+}
+
+/* Of slabs, whose colours are Rec. 709's. */
+static enum result check_colours(const struct slab_exr *exr, int part, struct error *error) {
+  static const float wanted[8] = {0.64F, 0.33F, 0.30F, 0.60F, 0.15F, 0.06F, 0.3127F, 0.3290F};
+  exr_attr_chromaticities_t found;
+  if (exr_attr_get_chromaticities(exr->context, part, "chromaticities", &found) != EXR_ERR_SUCCESS)
+    return RESULT_OK; /* there are none */
+  const float xy[8] = {found.red_x,  found.red_y,  found.green_x, found.green_y,
+                       found.blue_x, found.blue_y, found.white_x, found.white_y};
+  for (int k = 0; k < 8; ++k)
+    if (!(fabsf(xy[k] - wanted[k]) <= 0.002F))
+      return result_fail(error, RESULT_BAD,
+                         "has chromaticities other than Rec. 709's, which slabs have; convert its "
+                         "colours first");
+  return RESULT_OK;
+}
+
 static enum result find_blocks(struct slab_exr *exr, int part, struct error *error) {
   struct part *p = &exr->parts[part];
   exr_storage_t storage;
@@ -132,6 +179,8 @@ static enum result read_part_header(struct slab_exr *exr, int part, const char *
   struct slab_raster *raster = &exr->parts[part].raster;
   enum result result = find_blocks(exr, part, error);
   if (result == RESULT_OK) result = check_channels(exr, part, error);
+  if (result == RESULT_OK) result = check_compression(exr, part, error);
+  if (result == RESULT_OK && text_name) result = check_colours(exr, part, error);
   if (result != RESULT_OK) return result;
   /* The last chunk must be there before anyone allocates memory for all. */
   exr_chunk_info_t chunk;
@@ -166,9 +215,14 @@ enum result slab_exr_open(int fd, const char *path, const char *text_name, struc
   setup.size_fn = query_size;
   setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
   exr_result_t code = exr_start_read(&exr->context, path, &setup);
+  /* OpenEXRCore 3.1 complains of a compression that it does not know, and goes on with ZIP */
+  bool unknown = code == EXR_ERR_SUCCESS && strstr(exr->why, "Attribute 'compression'");
   if (code == EXR_ERR_SUCCESS) code = exr_get_count(exr->context, &exr->count);
   if (code != EXR_ERR_SUCCESS)
     result = result_at(fail(exr, code, error), error, "%s", path);
+  else if (unknown)
+    result = result_fail(error, RESULT_BAD,
+                         "%s: its compression is not known; save it again with ZIP", path);
   else if (!(exr->parts = calloc((size_t)exr->count, sizeof *exr->parts)))
     result = result_at(result_no_memory(error), error, "%s", path);
   /* A picture is the first part. */

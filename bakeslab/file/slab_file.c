@@ -159,6 +159,10 @@ enum slab_precision slab_file_precision(const struct slab_file *file, int page) 
   return raster_of(file, page)->precision;
 }
 
+const char *slab_file_lossy(const struct slab_file *file, int page) {
+  return raster_of(file, page)->lossy;
+}
+
 static enum result decode_block(struct slab_file *file, int page, int column, int row, float *rgb,
                                 struct error *error) {
   return file->tiff ? slab_tiff_read_block(file->tiff, page, column, row, rgb, error)

@@ -20,6 +20,8 @@ int slab_file_pages(const struct slab_file *file);
 /* Geometry of a page, without samples; owned by the file. */
 const struct slab *slab_file_page(const struct slab_file *file, int page);
 enum slab_precision slab_file_precision(const struct slab_file *file, int page);
+/* The lossy compression that has changed its samples, or NULL. */
+const char *slab_file_lossy(const struct slab_file *file, int page);
 
 /* Reads view (i,j): Nt rows of Ns pixels of 3 floats. Decodes only the tiles
  * that it touches. */

@@ -14,6 +14,7 @@ struct slab_raster {
   int block_width, block_height; /* tiles or strips, as they are stored; 0 x 0
                                     asks an EXR writer for scan lines */
   enum slab_precision precision; /* never DEFAULT */
+  const char *lossy;             /* name of the compression, where it changed samples; or NULL */
   double white[3];               /* LogLuv: factors on XYZ before encoding */
   char *text;                    /* the page's JSON, or NULL */
   const float *rgb;              /* width * height interleaved pixels, when writing */

@@ -92,6 +92,48 @@ $line"
   [[ $output == *'"history"'*"bakeslab convert a.tif -o b.exr"*"bakeslab convert b.exr"* ]]
 }
 
+@test "an EXR that another program saved: lossy compression is told, or refused by name" {
+  needs oiiotool
+  printf -v ramp '%08x ' $((0x3f800001)) $((0x3f912345)) $((0x3fabcdef)) # no halves
+  # shellcheck disable=SC2086
+  raw_slab f.tif '[2, 1, 16, 16]' 32 16 '' $ramp
+  "$BAKESLAB" convert f.tif -o float.exr
+  "$BAKESLAB" convert f.tif -o half.exr --precision half
+  # FROM COMPRESSION, and whether it changes samples
+  while read -r from compression changes; do
+    oiiotool "$from.exr" --compression "$compression" -o saved.exr
+    [ "$changes" = yes ] || "$BAKESLAB" diff --tolerance 0 "$from.exr" saved.exr
+    run -0 --separate-stderr "$BAKESLAB" info saved.exr
+    [[ ${output^^} == *"LOSSY COMPRESSION ${compression^^}"* ]] && told=yes || told=no
+    [ "$told" = "$changes" ] || { echo "$from $compression: told $told"; false; }
+    run -0 --separate-stderr "$BAKESLAB" check saved.exr
+    [[ $output == *"warning: its samples were changed by the lossy"* ]] && told=yes || told=no
+    [ "$told" = "$changes" ]
+  done <<'END'
+half rle no
+half piz no
+half pxr24 no
+half b44 yes
+half b44a yes
+float zips no
+float none no
+END
+  oiiotool float.exr --compression pxr24 -o saved.exr
+  run -0 --separate-stderr "$BAKESLAB" info --json saved.exr
+  [[ $output == *'"lossy": "PXR24"'* ]]
+  # OpenEXRCore 3.1 cannot decode DWA, and decodes floats of B44 wrongly
+  for compression in dwaa dwab b44 b44a; do
+    oiiotool float.exr --compression "$compression" -o saved.exr
+    refuses 1 "saved.exr: page 1: is compressed by ${compression^^}, which is lossy" -- "$BAKESLAB" info saved.exr
+  done
+  cp half.exr new.exr # the attribute's name, type and size come before it
+  at=$(grep -obaF compression new.exr | head -n 1 | cut -d: -f1)
+  printf '\x0b' | dd of=new.exr bs=1 seek=$((at + 28)) conv=notrunc status=none
+  refuses 1 "new.exr: its compression is not known" -- "$BAKESLAB" info new.exr
+  oiiotool half.exr --attrib:type='float[8]' chromaticities 1,0,0,1,0,0,0.3333,0.3333 -o xyz.exr
+  refuses 1 "xyz.exr: page 1: has chromaticities other than Rec. 709's" -- "$BAKESLAB" info xyz.exr
+}
+
 @test "convert: resolution and crop" {
   "$BAKESLAB" convert a.tif -o mean.exr --uv 1x1 --st 1
   run --separate-stderr "$BAKESLAB" lookup mean.exr <<<"0 0 0 0 -1 0"
