@@ -54,7 +54,7 @@ RENDER_CFLAGS := -Irender $(shell pkg-config --cflags $(RENDER_USED) 2>/dev/null
 RENDER_LIBS := -lembree3 $(shell pkg-config --libs $(RENDER_USED) 2>/dev/null)
 # What only bakeslab-image uses.
 IMAGE_CFLAGS := $(shell pkg-config --cflags $(IMAGE_USED) 2>/dev/null)
-IMAGE_LIBS := $(shell pkg-config --libs $(IMAGE_USED) 2>/dev/null)
+IMAGE_LIBS := $(shell pkg-config --libs $(IMAGE_USED) libtiff-4 2>/dev/null)
 
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE $(WARN) -ffp-contract=off $(CFLAGS_$(config)) -Ibakeslab $(PKG_CFLAGS) $(CFLAGS)
 # C++ is for shims around libraries that are C++ (CGAL, OpenImageIO), whose headers are system

@@ -63,8 +63,9 @@ $(READS): bakeslab/preload/reads.c bakeslab/preload/matt.c bakeslab/preload/matt
 
 # The only program that loads OpenImageIO.
 IMAGE := $(B)/lib/canned/bakeslab-image
-$(B)/bakeslab/image/bakeslab-image.cc.o: EXTRA_CXXFLAGS = $(IMAGE_CFLAGS)
-$(IMAGE): $(B)/bakeslab/image/bakeslab-image.cc.o
+IMAGE_OBJECTS := $(patsubst %,$(B)/%.o,$(wildcard bakeslab/image/*.cc))
+$(IMAGE_OBJECTS): EXTRA_CXXFLAGS = $(IMAGE_CFLAGS)
+$(IMAGE): $(IMAGE_OBJECTS)
 	@mkdir -p $(@D)
 	$(call say,LINK,$@)
 	$(Q)$(CXX) $(ALL_LDFLAGS) $^ $(IMAGE_LIBS) $(LDLIBS) -o $@

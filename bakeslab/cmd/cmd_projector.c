@@ -1,4 +1,5 @@
 /* cmd_projector.c - bakeslab projector: an image becomes the slab of a slide projector. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -57,10 +58,12 @@ static const char doc[] =
     "The projector is at the origin and shines along +z. The picture is upright (+y) and not "
     "mirrored, as seen from the projector.\n"
     "\n"
-    "IMAGE is PNG, JPEG, TIFF, EXR or what else OpenImageIO reads. Floating-point files are "
-    "linear, "
-    "others sRGB unless they say that they are linear. Transparent pixels are refused. The lamp's "
-    "name in POV-Ray is that of the output, if it is an identifier.\n"
+    "IMAGE is PNG, JPEG, TIFF, EXR, Radiance's HDR, GIF, BMP, WebP, PNM, PFM or TGA. Its colours "
+    "become linear Rec. 709 as it says itself, by a colour profile, say; where it says nothing, "
+    "floating-point files are linear, others sRGB. It is turned as EXIF says, and EXR is shown "
+    "within its display window. What cannot be right (CMYK, profiles made of tables, transparent "
+    "pixels, pixels that are not square) is refused. The lamp's name in POV-Ray is that of the "
+    "output, if it is an identifier.\n"
     "\n"
     "Examples:\n"
     "  bakeslab projector slide.png -o slide.tif --aperture 5 --focus 300 \\\n"
@@ -123,13 +126,20 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 }
 
 static enum result read_image(const char *path, struct picture *image, struct error *error) {
-  bool transparent = false;
-  enum result result = slab_image_read(path, NULL, 0, NULL, image, &transparent, error);
-  if (result != RESULT_OK || !transparent) return result;
-  picture_free(image);
-  return result_fail(error, RESULT_BAD,
-                     "%s: has transparent pixels; put it on black first, and save it without alpha",
-                     path);
+  struct slab_image_says says;
+  enum result result = slab_image_read(path, NULL, 0, NULL, SLAB_IMAGE_OWN, image, &says, error);
+  if (result != RESULT_OK) return result;
+  if (says.transparent)
+    result = result_fail(
+        error, RESULT_BAD,
+        "%s: has transparent pixels; put it on black first, and save it without alpha", path);
+  else if (!(fabs(says.pixel_aspect - 1) <= 0.01))
+    result = result_fail(error, RESULT_BAD,
+                         "%s: says that its pixels are %.4g times as wide as high; resize it so "
+                         "that they are square",
+                         path, says.pixel_aspect);
+  if (result != RESULT_OK) picture_free(image);
+  return result;
 }
 
 /* The output's name without folder and suffix. */

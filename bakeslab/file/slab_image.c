@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/files.h"
@@ -15,12 +17,15 @@ static const char PROGRAM[] = "lib/canned/bakeslab-image";
 static const char LETTERS[] = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 /* Reads what the program writes; where that breaks off, the program's own words say why. */
-static enum result take(FILE *from, struct picture *picture, int *transparent,
+static enum result take(FILE *from, struct picture *picture, struct slab_image_says *says,
                         struct error *error) {
+  int transparent = 0;
   result_fail(error, RESULT_IO, "%s broke off", PROGRAM);
-  if (fscanf(from, "%d %d %d%*[^\n]", &picture->width, &picture->height, transparent) != 3 ||
+  if (fscanf(from, "%d %d %d %lf", &picture->width, &picture->height, &transparent,
+             &says->pixel_aspect) != 4 ||
       getc(from) != '\n')
     return RESULT_IO;
+  says->transparent = transparent;
   size_t count = (size_t)picture->width * (size_t)picture->height, pixel = 3 * sizeof(float);
   picture->rgb = calloc(count, pixel);
   if (!picture->rgb)
@@ -30,10 +35,11 @@ static enum result take(FILE *from, struct picture *picture, int *transparent,
 }
 
 /* Runs the program on an open file. */
-static enum result run(const char *program, const char *suffix, int in, struct picture *picture,
-                       int *transparent, struct error *error) {
+static enum result run(const char *program, const char *suffix, enum slab_image_colours colours,
+                       int in, struct picture *picture, struct slab_image_says *says,
+                       struct error *error) {
   char kind[16];
-  const char *const words[] = {program, kind, NULL};
+  const char *const words[] = {program, kind, colours == SLAB_IMAGE_OWN ? "own" : "srgb", NULL};
   int ends[2];
   snprintf(kind, sizeof kind, "%.*s", (int)strspn(suffix, LETTERS), suffix);
   if (pipe2(ends, O_CLOEXEC) != 0)
@@ -43,7 +49,7 @@ static enum result run(const char *program, const char *suffix, int in, struct p
   enum result result = from ? process_start(&process, error) : result_no_memory(error);
   close(ends[1]);
   bool started = result == RESULT_OK;
-  if (started) result = take(from, picture, transparent, error);
+  if (started) result = take(from, picture, says, error);
   if (from)
     fclose(from);
   else
@@ -54,27 +60,47 @@ static enum result run(const char *program, const char *suffix, int in, struct p
   return result;
 }
 
+/* A file that can be sought in. Nothing waits for a pipe's other end. */
+static enum result open_file(const char *path, int *fd, struct error *error) {
+  struct stat status;
+  *fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (*fd < 0 || fstat(*fd, &status) != 0)
+    return result_fail(error, RESULT_IO, "%s", strerror(errno));
+  if (S_ISREG(status.st_mode)) return RESULT_OK;
+  return result_fail(error, RESULT_BAD, "is not a file");
+}
+
+static enum result keep_bytes(const void *bytes, size_t size, int *fd, struct error *error) {
+  *fd = memfd_create("image", MFD_CLOEXEC);
+  size_t done = 0;
+  while (*fd >= 0 && done < size) {
+    ssize_t put = write(*fd, (const char *)bytes + done, size - done);
+    if (put < 0) break;
+    done += (size_t)put;
+  }
+  if (*fd >= 0 && done == size) return RESULT_OK;
+  return result_fail(error, RESULT_IO, "%s", strerror(errno));
+}
+
 enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
-                            struct picture *picture, bool *transparent, struct error *error) {
+                            enum slab_image_colours colours, struct picture *picture,
+                            struct slab_image_says *says, struct error *error) {
   const char *dot = strrchr(path, '.');
-  int clear = 0;
-  enum result result = RESULT_OK;
+  struct slab_image_says unasked;
+  int in = -1;
   *picture = (struct picture){0};
   if (!suffix) suffix = dot ? dot + 1 : "";
   char *program = files_beside_program(PROGRAM);
-  FILE *in = bytes ? tmpfile() : fopen(path, "re");
-  if (!in || (bytes && (fwrite(bytes, 1, size, in) != size || fflush(in) != 0)))
-    result = result_fail(error, RESULT_IO, "%s", strerror(errno));
-  else if (!program)
+  enum result result = bytes ? keep_bytes(bytes, size, &in, error) : open_file(path, &in, error);
+  if (result == RESULT_OK && !program)
     result = result_fail(error, RESULT_IO,
                          "%s, which reads images, is not where this program was installed; run "
                          "`make` or `make install` again",
                          PROGRAM);
-  else
-    result = run(program, suffix, fileno(in), picture, &clear, error);
+  if (result == RESULT_OK)
+    result = run(program, suffix, colours, in, picture, says ? says : &unasked, error);
   if (result != RESULT_OK) picture_free(picture);
-  if (transparent) *transparent = clear;
-  if (in) fclose(in);
+  if (in >= 0) close(in);
   free(program);
   return result_at(result, error, "%s", path);
 }

@@ -1,5 +1,5 @@
-/* slab_image.h - images of any format that OpenImageIO knows: PNG, JPEG, TIFF, EXR and many
- * more, but no light slabs. The program lib/canned/bakeslab-image reads them. */
+/* slab_image.h - images: PNG, JPEG, TIFF, EXR, Radiance's HDR, GIF, BMP, WebP, PNM, PFM and TGA,
+ * but no light slabs. The program lib/canned/bakeslab-image reads them by OpenImageIO. */
 #ifndef SLAB_IMAGE_H
 #define SLAB_IMAGE_H
 
@@ -9,14 +9,33 @@
 #include "base/picture.h"
 #include "base/result.h"
 
-/* Reads an image as linear RGB, row 0 at the top; picture_free frees it. Floating-point
- * files and files that say so are linear, all others sRGB. One channel is grey. Alpha does not
- * change colours; `transparent` (NULL allowed) tells whether it is below 1 anywhere.
+/* What counts for the colours of an image. */
+enum slab_image_colours {
+  SLAB_IMAGE_OWN, /* what it says of itself */
+  SLAB_IMAGE_SRGB /* sRGB, whatever it says, as glTF 2.0 asks; floats are linear */
+};
+
+/* What else an image says of itself. */
+struct slab_image_says {
+  bool transparent;    /* is alpha below 1 anywhere? */
+  double pixel_aspect; /* a pixel's width by its height */
+};
+
+/* Reads an image as linear Rec. 709, row 0 at the top, the right way up (EXIF's orientation,
+ * Radiance's order of axes), within the display window of EXR, black where nothing is stored;
+ * picture_free frees it. Colours are what the file says by its ICC profile (of curves and a
+ * matrix, or grey), PNG's cICP, sRGB, gAMA and cHRM, chromaticities of EXR and TIFF (the same
+ * light, without adaptation of white), EXPOSURE and COLORCORR of Radiance; where it says nothing,
+ * floating-point files are linear, all others sRGB. One channel is grey. Alpha does not change
+ * colours. Of several pictures in a file the first is read.
  *
- * `path` is the file or, where `bytes` are given, only what messages call it. `suffix` is the
- * format's name, as in file names; NULL: as `path` ends. RESULT_BAD for what is no image and for
- * values that are negative or not finite, RESULT_IO without the file or the program. */
+ * `path` is the file or, where `bytes` are given, only what messages call it. `suffix` is what
+ * names of such files end in, which only TGA needs; NULL: as `path` ends. `says` may be NULL.
+ * RESULT_BAD for what is no image, what is refused by name (other profiles, CMYK, Lab, XYZE, more
+ * than 2^27 pixels) and values that are negative, not finite or outside Rec. 709; RESULT_IO
+ * without the file or the program. */
 enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
-                            struct picture *picture, bool *transparent, struct error *error);
+                            enum slab_image_colours colours, struct picture *picture,
+                            struct slab_image_says *says, struct error *error);
 
 #endif

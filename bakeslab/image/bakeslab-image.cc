@@ -1,10 +1,10 @@
 /* bakeslab-image.cc - reads the image on standard input, which must be a file, by OpenImageIO,
- * and writes it as linear RGB: a line
- *   WIDTH HEIGHT TRANSPARENT FORMAT CHANNELS TYPE SPACE
- * (TRANSPARENT: 1 where an alpha is below 1, else 0; FORMAT, CHANNELS, TYPE: of the file; SPACE:
- * as what it was taken, linear or srgb) and then this machine's floats, rows downwards.
- * file/slab_image.h says what is read how; the argument is the suffix that it names. What is
- * wrong is one line on standard error, and the exit status 1.
+ * and writes it as linear Rec. 709: a line
+ *   WIDTH HEIGHT TRANSPARENT ASPECT
+ * (TRANSPARENT: 1 where an alpha is below 1, else 0; ASPECT: a pixel's width by its height) and
+ * then this machine's floats, rows downwards. file/slab_image.h says what is read how; the
+ * arguments are the suffix and the colours that it names. What is wrong is one line on standard
+ * error, and the exit status 1.
  *
  * A program of its own, since OpenImageIO is 261 libraries. */
 #include <OpenImageIO/imageio.h>
@@ -19,25 +19,25 @@
 #include <string>
 #include <vector>
 
+#include "image/place.h"
+#include "image/says.h"
+
 using namespace OIIO;
 
 static const char path[] = "/dev/stdin";
 
 static std::runtime_error unreadable(const std::string &why) {
-  return std::runtime_error("is no image that can be read: " + why);
+  return std::runtime_error("is no image that can be read: " +
+                            (why.empty() ? "it is damaged or truncated" : why));
 }
 
-/* The format that the suffix names comes first, then all others. */
-static std::unique_ptr<ImageInput> open_image(const char *suffix, ImageSpec &spec) {
+static std::unique_ptr<ImageInput> open_image(const std::string &format, ImageSpec &spec) {
   ImageSpec wanted;
   wanted["oiio:UnassociatedAlpha"] = 1; /* colours as they are in the file */
-  std::unique_ptr<ImageInput> named = ImageInput::create(suffix);
-  if (named && named->open(path, spec, wanted)) return named;
-  std::unique_ptr<ImageInput> other = ImageInput::open(path, &wanted);
-  if (!other)
-    throw unreadable(named ? named->geterror() : "it has no format that OpenImageIO knows");
-  spec = other->spec();
-  return other;
+  std::unique_ptr<ImageInput> in = ImageInput::create(format);
+  if (!in) throw unreadable("OpenImageIO is here without " + format);
+  if (!in->open(path, spec, wanted)) throw unreadable(in->geterror());
+  return in;
 }
 
 /* Light slabs are no pictures; LogLuv, in which most are, would be read as 8 bits, silently. */
@@ -51,62 +51,167 @@ static void check_kind(const ImageSpec &spec) {
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw unreadable("it has no pixels");
 }
 
-/* Floating-point files hold light; others are sRGB unless they say that they are linear. */
-static bool is_linear(const ImageSpec &spec) {
-  std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  return spec.format.is_floating_point() || Strutil::iequals(space, "linear") ||
-         Strutil::iequals(space, "scene_linear");
-}
+/* ---- Where: channels and pixels ---- */
 
-static float decode(float value, bool linear, int column, int row) {
-  if (!(value >= 0) || !std::isfinite(value))
-    throw std::runtime_error(Strutil::sprintf(
-        "column %d, row %d holds a value that is negative or not finite", column, row));
-  double x = value;
-  return linear ? value : float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-}
+struct Channels {
+  std::array<int, 3> colours; /* of red, green and blue; grey is all of them */
+  int alpha, count;           /* -1: none; so many are read */
+};
 
-static void copy_image(const char *suffix) {
-  ImageSpec spec;
-  std::unique_ptr<ImageInput> in = open_image(suffix, spec);
-  check_kind(spec);
-  /* the first three channels, or the first for all three */
-  int alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1;
-  int colours = spec.nchannels < 3 ? 1 : 3, channels = std::max(colours, alpha + 1);
-  size_t width = size_t(spec.width), pixels = width * size_t(spec.height), step = size_t(channels);
-  bool fits = double(pixels) * channels < 0x1p40;
-  std::unique_ptr<float[]> all(fits ? new (std::nothrow) float[pixels * step] : nullptr);
-  if (!all) throw unreadable("it is too large for the memory");
-  if (!in->read_image(0, 0, 0, channels, TypeDesc::FLOAT, all.get()))
-    throw unreadable(in->geterror());
-  bool linear = is_linear(spec), transparent = false;
-  for (size_t k = 0; k < pixels && alpha >= 0; ++k)
-    transparent = transparent || !(all[k * step + size_t(alpha)] >= 1);
-  std::printf("%d %d %d %s %d %s %s\n", spec.width, spec.height, transparent, in->format_name(),
-              spec.nchannels, spec.format.c_str(), linear ? "linear" : "srgb");
-  std::vector<float> rgb(3 * width);
-  for (int row = 0; row < spec.height; ++row) {
-    const float *from = &all[size_t(row) * width * step];
-    for (size_t k = 0; k < 3 * width; ++k)
-      rgb[k] = decode(from[k / 3 * step + (colours == 3 ? k % 3 : 0)], linear, int(k / 3), row);
-    std::fwrite(rgb.data(), sizeof(float), rgb.size(), stdout);
+static Channels find_channels(const ImageSpec &spec, const std::string &format) {
+  Channels found = {{0, 1, 2}, spec.alpha_channel, 0};
+  /* OpenImageIO 2.4 calls a channel that is not there the alpha of GIF */
+  if (found.alpha >= spec.nchannels) found.alpha = spec.channelindex("A");
+  if (spec.nchannels < 3) found.colours = {0, 0, 0};
+  if (format == "openexr") {
+    found.colours = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+    bool whole = *std::min_element(found.colours.begin(), found.colours.end()) >= 0;
+    if (!whole && spec.nchannels - (found.alpha >= 0) != 1)
+      throw std::runtime_error("has the channels " + Strutil::join(spec.channelnames, ", ") +
+                               "; R, G and B, or one for grey, are what is read");
+    if (!whole) found.colours.fill(found.alpha == 0 ? 1 : 0);
   }
+  found.count = 1 + std::max({found.colours[0], found.colours[1], found.colours[2], found.alpha});
+  return found;
+}
+
+static Place find_place(const ImageSpec &spec, const Says &says) {
+  Place place = {spec.width, spec.height, spec.width, spec.height, 0, 0, says.orientation};
+  if (says.orientation == 0) place.orientation = spec.get_int_attribute("Orientation", 1);
+  if (place.orientation < 1 || place.orientation > 8) place.orientation = 1;
+  /* other formats have places on a page */
+  if (says.format == "openexr") {
+    place.full_width = spec.full_width;
+    place.full_height = spec.full_height;
+    place.left = spec.x - spec.full_x;
+    place.top = spec.y - spec.full_y;
+  }
+  double most = double(says_most_pixels);
+  if (double(place.width) * place.height > most ||
+      double(place.full_width) * place.full_height > most)
+    throw std::runtime_error(says_too_large);
+  return place;
+}
+
+/* ---- What colours ---- */
+
+static Colours find_own_colours(const ImageSpec &spec, const Says &says) {
+  Colours colours;
+  const ParamValue *profile = spec.find_attribute("ICCProfile");
+  if (says.has_profile && !profile)
+    throw std::runtime_error("has a colour profile that is damaged; convert it to sRGB first");
+  if (profile)
+    return colours_of_profile(
+        std::string(static_cast<const char *>(profile->data()), size_t(profile->datasize())),
+        spec.get_string_attribute("ICCProfile:profile_description"));
+  std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  float gamma = spec.get_float_attribute("oiio:Gamma");
+  bool linear = spec.format.is_floating_point() || Strutil::iequals(space, "linear") ||
+                Strutil::iequals(space, "scene_linear");
+  if (spec.get_int_attribute("Exif:ColorSpace") == 2)
+    throw std::runtime_error("is Adobe RGB; convert it to sRGB first");
+  if (says.curve)
+    colours.curves.fill(*says.curve);
+  else if (!linear)
+    colours.curves.fill(gamma > 0 ? colours_power(double(gamma)) : colours_srgb());
+  float xy[8];
+  std::optional<Primaries> primaries = says.primaries;
+  if (spec.get_int_attribute("acesImageContainerFlag") == 1) /* SMPTE ST 2065-4 */
+    primaries = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
+  if (spec.getattribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), xy)) {
+    primaries.emplace();
+    std::copy(xy, xy + 8, primaries->begin());
+  }
+  if (primaries) colours_of_primaries(*primaries, colours);
+  return colours;
+}
+
+static Colours find_colours(const ImageSpec &spec, const Says &says, bool own) {
+  Colours colours;
+  if (own) return find_own_colours(spec, says);
+  if (!spec.format.is_floating_point()) colours.curves.fill(colours_srgb());
+  return colours;
+}
+
+/* ---- The picture ---- */
+
+struct Picture {
+  Place place;
+  Channels channels;
+  Colours colours;
+  double gain[3], step; /* step: of what integers round, as light; 0: no integers */
+  std::unique_ptr<float[]> stored;
+};
+
+static void write_row(const Picture &picture, int row, std::vector<float> &rgb) {
+  for (int column = 0; column < picture.place.shown_width(); ++column) {
+    long pixel = picture.place.find(column, row);
+    double light[3] = {0, 0, 0};
+    const float *from =
+        pixel < 0 ? nullptr : &picture.stored[size_t(pixel * picture.channels.count)];
+    for (size_t k = 0; from && k < 3; ++k) light[k] = double(from[picture.channels.colours[k]]);
+    if (from) picture.colours.decode(light, picture.step);
+    for (size_t k = 0; k < 3; ++k) {
+      float value = float(light[k] * picture.gain[k]);
+      if (!(value >= 0) || !std::isfinite(value))
+        throw std::runtime_error(
+            Strutil::sprintf("column %d, row %d holds %s", column, row,
+                             picture.colours.mixes && std::isfinite(value)
+                                 ? "a colour outside Rec. 709's; bring it into sRGB first"
+                                 : "a value that is negative or not finite"));
+      rgb[3 * size_t(column) + k] = value;
+    }
+  }
+  std::fwrite(rgb.data(), sizeof(float), rgb.size(), stdout);
+}
+
+static void copy_image(const char *suffix, bool own) {
+  ImageSpec spec;
+  Says says = says_read({STDIN_FILENO}, suffix);
+  std::unique_ptr<ImageInput> in = open_image(says.format, spec);
+  check_kind(spec);
+  Picture picture = {find_place(spec, says),
+                     find_channels(spec, says.format),
+                     find_colours(spec, says, own),
+                     {},
+                     0,
+                     {}};
+  std::copy(says.gain, says.gain + 3, picture.gain);
+  if (!spec.format.is_floating_point()) picture.step = 0.004;
+  int alpha = picture.channels.alpha;
+  size_t pixels = size_t(spec.width) * size_t(spec.height), step = size_t(picture.channels.count);
+  picture.stored.reset(new (std::nothrow) float[pixels * step]);
+  if (!picture.stored) throw unreadable("it is too large for the memory");
+  if (!in->read_image(0, 0, 0, picture.channels.count, TypeDesc::FLOAT, picture.stored.get()))
+    throw unreadable(in->geterror());
+  bool transparent = false;
+  for (size_t k = 0; k < pixels && alpha >= 0; ++k)
+    transparent = transparent || !(picture.stored[k * step + size_t(alpha)] >= 1);
+  double aspect = double(spec.get_float_attribute("PixelAspectRatio", 1));
+  if (picture.place.turned()) aspect = 1 / aspect;
+  if (says.pixel_aspect > 0) aspect = says.pixel_aspect;
+  std::printf("%d %d %d %.9g\n", picture.place.shown_width(), picture.place.shown_height(),
+              transparent, aspect);
+  std::vector<float> rgb(3 * size_t(picture.place.shown_width()));
+  for (int row = 0; row < picture.place.shown_height(); ++row) write_row(picture, row, rgb);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
     throw std::runtime_error("its pixels cannot be passed on");
 }
 
 int main(int argc, char **argv) {
   int errors = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3); /* libraries talk on the other */
-  if (argc != 2 || !std::freopen("/dev/null", "w", stderr)) {
-    dprintf(errors, "usage: bakeslab-image SUFFIX <IMAGE >PIXELS\n");
+  if (argc != 3 || !std::freopen("/dev/null", "w", stderr)) {
+    dprintf(errors, "usage: bakeslab-image SUFFIX own|srgb <IMAGE >PIXELS\n");
     return 2;
   }
   try {
-    copy_image(argv[1]);
+    copy_image(argv[1], std::string(argv[2]) == "own");
     return 0;
+  } catch (const std::bad_alloc &) {
+    dprintf(errors, "is too large for the memory\n");
   } catch (const std::exception &failure) {
     std::string why = failure.what();
     dprintf(errors, "%s\n", why.substr(0, why.find('\n')).c_str());
-    return 1;
   }
+  return 1;
 }

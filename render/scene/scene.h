@@ -91,8 +91,8 @@ enum scene_needs {
  * empty.
  *
  * For SCENE_SHAPE, normal, uv, material, materials and textures are NULL.
- * Textures are read by slab_image.h: floating-point files and files that say so are linear, all
- * others sRGB. */
+ * Textures are read by slab_image.h, in the colours that they say; those of glTF are sRGB, whatever
+ * they say, as its specification asks. */
 enum result scene_load(const char *path, enum scene_needs needs, bool repair, struct scene *scene,
                        char note[256], struct error *error);
 void scene_free(struct scene *scene); /* zeroed scene allowed */

@@ -31,15 +31,17 @@ static char *texture_path(const struct scene_loading *loading, const char *name)
 static enum result read_picture(const struct scene_loading *loading,
                                 const struct aiTexture *embedded, struct scene_texture *texture,
                                 struct error *error) {
+  enum slab_image_colours colours =
+      loading->format == SCENE_GLTF ? SLAB_IMAGE_SRGB : SLAB_IMAGE_OWN;
   if (!embedded)
-    return slab_image_read(texture->path, NULL, 0, NULL, &texture->picture, NULL, error);
+    return slab_image_read(texture->path, NULL, 0, NULL, colours, &texture->picture, NULL, error);
   if (embedded->mHeight != 0 || !embedded->pcData)
     return result_fail(error, RESULT_BAD,
                        "%s: embeds an image as bare pixels, which is not supported; embed a PNG or "
                        "JPEG file",
                        loading->path);
   return slab_image_read(texture->path, embedded->pcData, embedded->mWidth, embedded->achFormatHint,
-                         &texture->picture, NULL, error);
+                         colours, &texture->picture, NULL, error);
 }
 
 /* Loads the texture unless it is there already; *number is its number. assimp calls the

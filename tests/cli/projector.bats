@@ -37,6 +37,15 @@ declines() {
   [ -z "$(ls tmp)" ]
 }
 
+@test "the window of an EXR is the picture, and a photo is turned" {
+  oiiotool --create 2x2 3 --fill:color=1,0.5,0.25 2x2 --fullsize 4x2+0+0 -d half -o part.exr
+  "$BAKESLAB" projector part.exr -o s.exr "${where[@]}"
+  [ "$("$BAKESLAB" lookup s.exr <<<$'0 0 0  -0.4 0.1 2\n0 0 0  0.4 0.1 2')" = $'1 0.5 0.25\n0 0 0' ]
+  oiiotool four.ppm --orientation 6 -o turned.tif
+  "$BAKESLAB" projector turned.tif -o s.exr "${where[@]}"
+  [ "$("$BAKESLAB" lookup s.exr <<<$'0 0 0  -0.25 0.25 2\n0 0 0  0.25 0.25 2')" = $'0 0 1\n1 0 0' ]
+}
+
 @test "floating-point images are linear, opaque alpha is fine, grey is grey" {
   oiiotool --create 2x2 4 --fill:color=0.5,0.25,2,1 2x2 -d half -o half.exr
   "$BAKESLAB" projector half.exr -o s.exr "${where[@]}"
@@ -65,9 +74,19 @@ declines() {
   oiiotool --create 2x2 4 --fill:color=1,1,1,0.5 2x2 -d uint8 -o glass.png
   printf 'Pf\n1 1\n-1\n\0\0\300\177' >nan.pfm
   printf 'Pf\n1 1\n-1\n\0\0\200\277' >negative.pfm
-  for name in empty.png nothing.ppm huge.ppm .; do
+  printf 'P4\n65535 65535\n' >large.pbm
+  truncate -s 600M large.pbm
+  truncate -s 4G zeros.png
+  mkfifo pipe.png
+  for name in empty.png nothing.ppm huge.ppm large.pbm zeros.png; do
     declines 1 "$name: is no image that can be read" -- "$name" -o s.tif "${where[@]}"
   done
+  declines 1 "large.pbm: is no image that can be read: it has more than 2^27 pixels" -- large.pbm -o s.tif "${where[@]}"
+  for name in . pipe.png /dev/zero; do
+    declines 1 "$name: is not a file" -- "$name" -o s.tif "${where[@]}"
+  done
+  oiiotool --create 2x2 3 --fill:color=1,1,1 2x2 --attrib PixelAspectRatio 2 -d half -o wide.exr
+  declines 1 "wide.exr: says that its pixels are 2 times as wide as high" -- wide.exr -o s.tif "${where[@]}"
   declines 1 "gone.png: No such file" -- gone.png -o s.tif "${where[@]}"
   declines 1 "glass.png: has transparent pixels; put it on black first" -- glass.png -o s.tif "${where[@]}"
   declines 1 "nan.pfm: column 0, row 0 holds a value that is negative or not finite" -- nan.pfm -o s.tif "${where[@]}"

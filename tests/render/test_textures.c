@@ -88,9 +88,10 @@ TEST(test_textures) {
       SCENE_SURFACES, false, "without texture coordinates");
 }
 
-/* A picture that is within the glTF file: one white PNG pixel of 188/255. */
+/* A picture that is within the glTF file: one PNG pixel of 0.75. It says that it is linear, but
+ * glTF's are sRGB whatever they say. */
 TEST(test_embedded) {
-  write_picture("dot.png", "--crop 1x1+1+1 --fullpixels -d uint8");
+  write_picture("dot.png", "--crop 1x1+1+1 --fullpixels --iscolorspace Linear -d uint8");
   char command[1024], rest[2048], code[1024] = "";
   snprintf(command, sizeof command, "base64 -w0 '%s'", scratch("dot.png"));
   FILE *pipe = popen(command, "r");
