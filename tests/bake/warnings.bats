@@ -54,6 +54,8 @@ wall='box { <-9, -9, -2.1>, <9, 9, -2> pigment { rgb 0.8 } finish { diffuse 1 } 
   [[ $output == *"x.exr: warning: gives no light at all"* ]]
   lamp 'sphere { <5, 0, -1>, 1 pigment { rgb 1 } finish { emission 1 diffuse 0 } }'
   [[ $output == *"gives no light at all: all of its light leaves outside the st window"* ]]
+  lamp 'Canned_Bulb(<6, 0, -3>, 0.6, 10)'
+  [[ $output == *"gives no light at all: all of its light leaves outside the st window"* ]]
   lamp 'Canned_Bulb(<0, 0, -1>, 0.3, 10) box { <-2, -2, -0.1>, <2, 2, -0.05> pigment { rgb 0 } }'
   [[ $output == *"gives no light at all: there is light inside, but something opaque shuts"* ]]
   lamp 'box { <-9, -9, -2>, <9, 9, -1> pigment { rgbt 1 } finish { emission 1 } }'
