@@ -203,7 +203,8 @@ static bool find_box(const struct planes *planes, double box[2][3]) {
   return least > 0.05 * most;
 }
 
-/* The sides of the box that have no page in their plane. */
+/* The sides of the box that have no page in their plane, half the box further out and twice as
+ * wide: a wall may lie on the side, and what is inside it does not leave. */
 static void make_sides(struct planes *planes) {
   double box[2][3];
   if (!find_box(planes, box)) return;
@@ -218,10 +219,11 @@ static void make_sides(struct planes *planes) {
     struct slab *plane = &planes->baked[SIDE * planes->count + planes->sides];
     *plane = planes->pages[0];
     for (int c = 0; c < 3; ++c) {
-      plane->center[c] = c == axis ? at : (box[0][c] + box[1][c]) / 2;
+      plane->center[c] =
+          c == axis ? at + (side % 2 ? 50 : -50) * close : (box[0][c] + box[1][c]) / 2;
       plane->normal[c] = c == axis ? (side % 2 ? 1 : -1) : 0;
-      plane->u[c] = c == next ? box[1][c] - box[0][c] : 0;
-      plane->v[c] = c == last ? box[1][c] - box[0][c] : 0;
+      plane->u[c] = c == next ? 2 * (box[1][c] - box[0][c]) : 0;
+      plane->v[c] = c == last ? 2 * (box[1][c] - box[0][c]) : 0;
     }
     plane->st_distance = INFINITY;
     for (int k = 0; k < 4; ++k) plane->st_window[k] = 0;
