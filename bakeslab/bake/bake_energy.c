@@ -354,6 +354,14 @@ static void warn(const struct bake_work *work, const struct bake_energy *energy,
                      : "enlarge the windows in Canned_Slab, or bake with --window auto");
 }
 
+double bake_energy_rays(const struct lamp *lamp) {
+  double around =
+      POSITIONS * POSITIONS * (NEAR_DIRECTIONS * NEAR_DIRECTIONS + DIRECTIONS * DIRECTIONS) +
+      WIDE_POSITIONS * WIDE_POSITIONS * DIRECTIONS * DIRECTIONS;
+  double dark = DARK_POSITIONS * DARK_POSITIONS * DARK_DIRECTIONS * DARK_DIRECTIONS;
+  return lamp->slab_count * (around + (lamp->bulbs ? dark : 0));
+}
+
 enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,
                         struct bake_energy *energy, struct bake_report *report,
                         struct error *error) {

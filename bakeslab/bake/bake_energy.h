@@ -23,6 +23,9 @@ struct bake_energy {
   char line[BAKE_ENERGY_LINE]; /* all that in words */
 };
 
+/* The rays of the small bakes that it takes, but for those beside the pages' box. */
+double bake_energy_rays(const struct lamp *lamp);
+
 /* Weighs the work's finished pages, and warns in the report where the lamp gives more light than
  * its bulbs, beyond the noise of the bake, or where the pages miss light. */
 enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,

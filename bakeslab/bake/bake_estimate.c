@@ -2,7 +2,7 @@
  *
  * 1. Two small bakes of different numbers of rays give the CPU time of a process before its first
  *    ray (parsing, photons, most of radiosity's samples) and of each ray.
- * 2. The batches are as full as bake_plan.c makes them.
+ * 2. The batches are as full as bake_plan.c makes them. The balance (bake_energy.h) follows.
  * 3. Memory is that of the sums (bake_sum.c) and the samples, and of POV-Ray for each job.
  * 4. The small bakes, written as the slab will be, give the bytes of a row of t and of a sample:
  *    dark and smooth lamps are packed ten times as tight as noisy ones. */
@@ -14,6 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "bake/bake_energy.h"
 #include "base/files.h"
 #include "file/slab_file.h"
 #include "probe/probe_bake.h"
@@ -76,6 +77,8 @@ enum result bake_estimate(const struct bake_work *work, struct bake_estimate *es
   double batches = ceil(estimate->rays / BATCH_RAYS), jobs = fmin(options->jobs, batches);
   estimate->seconds =
       (batches * (first + idle_seconds) + estimate->rays * per_ray) / jobs / options->shards;
+  /* The balance comes after it: two small bakes of a process each. */
+  estimate->seconds += 2 * (first + idle_seconds) + bake_energy_rays(work->lamp) * per_ray;
   estimate->memory = program_bytes + SUM_BYTES * estimate->samples +
                      jobs * (povray_bytes + povray_ray_bytes * fmin(BATCH_RAYS, estimate->rays));
   double sample_bytes =
