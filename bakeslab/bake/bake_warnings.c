@@ -45,6 +45,12 @@ enum result bake_warn_of_lamp(const struct bake_work *work, struct lamp *lamp,
                  "canned.inc switches off: it is not in the slab; write emission where a thing "
                  "is to glow",
                  100 * ambient);
+  if (lamp->reads.translucent && work->look.effects->setting[CAUSTICS] > 0)
+    warnings_add(warnings,
+                 "photons (caustics) and a translucent surface (diffuse with two numbers): POV-Ray "
+                 "shows photons through it up to ten times too bright, so that the slab may have "
+                 "too much light even where its efficiency is below 100 %%; leave caustics out of "
+                 "--effects, or give the surface one number");
   if (lamp->reads.write[0])
     warnings_add(warnings,
                  "the script writes files (%s is the first); with --sandbox it can only do so in a "

@@ -6,7 +6,7 @@
 #include "batch/bake_run.h"
 
 /* By trial runs of the work's lamp, before the bake: light_sources, which are counted in it, things
- * that glow by `ambient`, files that the script writes. */
+ * that glow by `ambient`, translucent surfaces with photons, files that the script writes. */
 enum result bake_warn_of_lamp(const struct bake_work *work, struct lamp *lamp,
                               struct warnings *warnings, struct error *error);
 

@@ -92,6 +92,8 @@ enum result lamp_reads_collect(const char *directory, const char *script, const 
   for (char *path; own && result == RESULT_OK && rest && *rest && (path = strsep(&rest, "\n"));)
     if (*path == '*')
       reads->highlights = true;
+    else if (*path == '&')
+      reads->translucent = true;
     else if (*path == '>')
       add_written(reads, path + 1, own);
     else if (strncmp(path, own, strlen(own)) != 0 && strncmp(path, "/proc/", 6) != 0 &&

@@ -12,9 +12,10 @@ struct lamp_read;
 struct lamp_reads {
   struct lamp_read *files;
   int count;
-  bool highlights; /* a script that it includes has `specular` or `phong` */
-  char key[33];    /* of all files' content, whatever folders they lie in */
-  char write[80];  /* the name of the first file that the script writes, without its folder */
+  bool highlights;  /* a script that it includes has `specular` or `phong` */
+  bool translucent; /* one has a finish with `diffuse` of two numbers */
+  char key[33];     /* of all files' content, whatever folders they lie in */
+  char write[80];   /* the name of the first file that the script writes, without its folder */
 };
 
 /* Reads the list that POV-Ray left in `directory`; files in that folder itself don't

@@ -47,17 +47,33 @@ static int is_one_of(const char *word, size_t length, const char *const *list) {
   return 0;
 }
 
+/* A number that is zero, and no sum or product that begins with it. */
 static int is_zero(const char *at) {
   char *end;
-  return strtod(at, &end) == 0 && end != at;
+  if (strtod(at, &end) != 0 || end == at) return 0;
+  end += strspn(end, " \t\r\n");
+  return *end == 0 || !strchr("+-*/", *end) || skip_inert(end) != end;
+}
+
+/* Behind the word `diffuse`: whether a second number follows, which is not zero. No other item of a
+ * finish has a comma outside of brackets. */
+static int is_translucent(const char *at) {
+  for (int depth = 0; *at && depth >= 0;) {
+    const char *rest = skip_inert(at);
+    if (rest == at && depth == 0 && *at == ',') return !is_zero(at + 1);
+    if (rest == at) depth += (strchr("({[<", *at) != NULL) - (strchr(")}]>", *at) != NULL);
+    at = rest != at ? rest : at + 1;
+  }
+  return 0;
 }
 
 /* The brace that closes the one at `open`, or NULL. */
 static const char *closing_brace(const char *open, int *found) {
   static const char *const begin[] = {"if",  "ifdef",  "ifndef", "while",
                                       "for", "switch", "macro",  0},
-                           *const end[] = {"end", 0}, *const shiny[] = {"specular", "phong", 0};
-  int depth = 0, blocks = 0, highlights = 0;
+                           *const end[] = {"end", 0}, *const shiny[] = {"specular", "phong", 0},
+                           *const diffuse[] = {"diffuse", 0};
+  int depth = 0, blocks = 0, has = 0;
   for (const char *at = open; *at;) {
     const char *rest = skip_inert(at);
     if (rest != at) {
@@ -65,13 +81,15 @@ static const char *closing_brace(const char *open, int *found) {
       continue;
     }
     depth += (*at == '{') - (*at == '}');
-    if (depth == 0 && blocks == 0) *found |= highlights;
+    if (depth == 0 && blocks == 0) *found |= has;
     if (depth == 0) return blocks == 0 ? at : NULL;
     int directive = *at == '#';
     if (directive) at += 1 + strspn(at + 1, " \t");
     size_t length = word_length(at);
     if (directive) blocks += is_one_of(at, length, begin) - is_one_of(at, length, end);
-    if (!directive && is_one_of(at, length, shiny)) highlights |= !is_zero(at + length);
+    if (!directive && is_one_of(at, length, shiny) && !is_zero(at + length)) has |= MATT_HIGHLIGHTS;
+    if (!directive && is_one_of(at, length, diffuse) && is_translucent(at + length))
+      has |= MATT_TRANSLUCENT;
     at += length ? length : !directive;
   }
   return NULL;

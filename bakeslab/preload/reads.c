@@ -1,8 +1,9 @@
 /* reads.c - preloaded into POV-Ray. Where the environment variable CANNED_MATT is set, scripts come
  * without highlights and rainbows (matt.h). In a trial run it lists every file that POV-Ray opens,
- * one path a line, in the file that CANNED_READS names; those that it may write begin with >, and a
- * line * says that a script had highlights. POV-Ray has no option for that, and file names in
- * scripts may be computed, so that the script's text does not show them. */
+ * one path a line, in the file that CANNED_READS names; those that it may write begin with >, a
+ * line * says that a script had highlights, one & that a finish has a diffuse back side. POV-Ray has
+ * no option for that, and file names in scripts may be computed, so that the script's text does not
+ * show them. */
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -35,7 +36,8 @@ static FILE *matt(FILE *file, const char *mode) {
   const char *list = getenv("CANNED_READS");
   int found = 0;
   if (file && mode[0] == 'r' && getenv("CANNED_MATT")) file = matt_script(file, &found);
-  if (found && list) note_line(list, "*", "");
+  if (found & MATT_HIGHLIGHTS && list) note_line(list, "*", "");
+  if (found & MATT_TRANSLUCENT && list) note_line(list, "&", "");
   return file;
 }
 
