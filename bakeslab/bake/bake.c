@@ -192,10 +192,23 @@ static enum result announce(const struct bake_work *work, const struct bake_stat
 
 /* ---- 4. What the samples say ---- */
 
+/* A flux that is known less well is told, relative standard error. */
+static const double most_flux_noise = 0.05;
+
+static void warn_of_noise(const struct bake_noise *noise, struct warnings *warnings) {
+  if (!noise->known || !(noise->flux > most_flux_noise)) return;
+  warnings_add(warnings,
+               "the slab's flux is known to %.0f %% only (standard error; few rays find the light "
+               "of a small source): %.3g times as many --rays would make that %.2g %%",
+               100 * noise->flux, ceil(pow(noise->flux / most_flux_noise, 2)),
+               100 * most_flux_noise);
+}
+
 static enum result assess(const struct bake_work *work, struct bake_state *state,
                           struct bake_report *report, struct error *error) {
   const struct slab *pages = state->lamp.slabs;
   enum result result = bake_warn_of_darkness(work, pages, &report->warnings, error);
+  warn_of_noise(&state->origin.noise, &report->warnings);
   if (report->photons_lost[0])
     warnings_add(&report->warnings, "light that meets glass is lost: %s; " BAKE_PHOTONS_ADVICE,
                  report->photons_lost);

@@ -263,8 +263,8 @@ enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening 
  * samples have changed, what is known of them moves there from the `fresh` one. */
 static json_t *history_entry(const json_t *provenance, json_t *fresh, bool changed) {
   static const char *const kept[] = {"command", "tool"}, *const of_samples[] = {
-                                                             "rays", "noise", "energy",
-                                                             "efficiency", "missed"};
+                                                             "rays",       "noise",  "energy",
+                                                             "efficiency", "missed", "warnings"};
   json_t *entry = json_object();
   for (size_t k = 0; k < 2; ++k)
     json_object_set(entry, kept[k], json_object_get(provenance, kept[k]));

@@ -40,7 +40,7 @@ enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening 
 /* Records in "provenance" that `command` of `tool` made the slab. The command
  * and tool before go to the end of its array "history"; its other keys stay,
  * since they still describe the light. Where the samples were `changed`, as by
- * resampling, what the bake knew of them ("rays", "noise", "missed", ...) goes to
+ * resampling, what the bake knew of them ("rays", "noise", "missed", "warnings", ...) goes to
  * the history too. */
 enum result slab_json_record(struct slab *slab, const char *command, const char *tool, bool changed,
                              struct error *error);

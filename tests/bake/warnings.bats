@@ -93,7 +93,7 @@ wall='box { <-9, -9, -2.1>, <9, 9, -2> pigment { rgb 0.8 } finish { diffuse 1 } 
   run small lamp.pov -q -o x.exr --strict # light goes on beyond the window
   echo "$output"
   [ "$status" -eq 1 ]
-  [[ $output == *"warning: the pages miss "*"1 warning, which --strict takes for a failure: no slab is written"* ]]
+  [[ $output == *"warning: the pages miss "*"2 warnings, which --strict takes for a failure: no slab is written"* ]]
   [ ! -e x.exr ]
   run small lamp.pov -o x.exr
   [[ $output == *"1 batches, 1 of them found"* ]]
@@ -104,4 +104,44 @@ wall='box { <-9, -9, -2.1>, <9, 9, -2> pigment { rgb 0.8 } finish { diffuse 1 } 
   run refused_strict
   [ "$status" -eq 1 ]
   [ ! -e x.exr.partial ]
+}
+
+# opal FINISH EFFECTS: a bulb behind a disc of glass.
+opal() {
+  cat >opal.pov <<LAMP
+#version 3.7;
+#include "canned.inc"
+Canned_Lamp("opal")
+Canned_Slab(<0, 0, 0>, <2, 0, 0>, <0, 2, 0>, <0, 0, 1>, <-2, 2, -2, 2>, 0)
+Canned_Bulb(<0, 0, -1>, 0.3, 1)
+$wall
+disc { -0.2*z, z, 1 pigment { rgb 0.5 } finish { $1 } }
+sphere { <0, 0, -0.5>, 0.1 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on } }
+LAMP
+  run small opal.pov -q --effects "$2" -o x.exr
+  echo "$output"
+  [ "$status" -eq 0 ]
+}
+photons='warning: photons (caustics) and a translucent surface (diffuse with two numbers): '
+
+@test "photons with a translucent surface are told, also where less light leaves than bulbs give" {
+  opal 'diffuse 0.1, 0.2' caustics
+  [[ $output == *"$photons"* && $output != *"as much light leaves"* ]]
+  run "$BAKESLAB" check x.exr
+  [[ $output == *"by its bake: photons (caustics) and a translucent"* ]]
+  opal 'ambient 0 diffuse albedo 0.1 /* , 0 */ , (0.1 + 0.1) phong 1' caustics
+  [[ $output == *"$photons"* ]]
+  opal 'diffuse 0.1, 0.2' none
+  [[ $output != *"$photons"* ]]
+  opal 'diffuse 0.1, 0 reflection { 0, 0.1 } emission <0, 0, 0> /* diffuse 1, 1 */' caustics
+  [[ $output != *"$photons"* ]]
+}
+
+@test "a flux that few rays found is told, and how many would do" {
+  lamp 'Canned_Bulb(<0, 0, -1.5>, 0.06, 10)'
+  [[ $output =~ the\ slab\'s\ flux\ is\ known\ to\ [0-9]+\ %\ only.*:\ [0-9]+\ times\ as\ many\ --rays ]]
+  run "$BAKESLAB" check x.exr
+  [[ $output == *"by its bake: the slab's flux is known to "* ]]
+  lamp "$wall Canned_Bulb(<0, 0, -1.5>, 0.9, 10)"
+  [[ $output != *"flux is known to"* ]]
 }

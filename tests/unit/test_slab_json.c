@@ -57,7 +57,7 @@ TEST(test_provenance_of_changed) {
   struct error error = {{0}};
   assert_ok(slab_json_set(&slab, "provenance",
                           "{\"command\": \"one\", \"tool\": \"t1\", \"rays\": 16, \"effects\": "
-                          "{\"gloss\": 1}, \"noise\": {\"flux\": 0.5}}",
+                          "{\"gloss\": 1}, \"noise\": {\"flux\": 0.5}, \"warnings\": [\"dark\"]}",
                           &error),
             &error);
   for (int changed = 0; changed < 2; ++changed)
@@ -66,7 +66,7 @@ TEST(test_provenance_of_changed) {
   assert_string_equal(text, "{\"command\": \"next\", \"tool\": \"t\", \"effects\": {\"gloss\": 1}, "
                             "\"history\": [{\"command\": \"one\", \"tool\": \"t1\"}, "
                             "{\"command\": \"next\", \"tool\": \"t\", \"rays\": 16, "
-                            "\"noise\": {\"flux\": 0.5}}]}");
+                            "\"noise\": {\"flux\": 0.5}, \"warnings\": [\"dark\"]}]}");
   free(text);
   slab_free(&slab);
 }
