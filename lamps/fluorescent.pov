@@ -5,7 +5,7 @@
 // their axes, closer together than the things are near. So they need no extended source.
 // `bakeslab bake` warns of these light_sources: here the tubes are seen in their place.
 // The louvres hide the tubes above slope 6/4.5 along them and 7.5/4.5 across; the glow of the
-// louvres goes on to the side, 3 % of the light beyond the window, and `bakeslab check` says so.
+// louvres goes on to the side, 3 % of the light beyond the window, as the bake says.
 // Bake: bakeslab bake fluorescent.pov -o fluorescent.tif --uv 32x16 --st 48x48
 // Use: object { Fluorescent_Canned(1, 1) translate 250*y }
 // Licence: CC0

@@ -4,8 +4,8 @@
 // photons; and for interreflection: base and roof light each other. Each changes 1 to 2 % of the
 // light, but all of it where the lantern shines on itself.
 // Pages: 1 to 4 the sides (towards +z, +x, -z, -x) of the box between base and roof, so that
-// there is no gap for light to get out. Base and roof shine to the side at all angles, of which
-// `bakeslab check` warns; 2 % of the light is beyond the windows.
+// there is no gap for light to get out. Base and roof shine to the side at all angles: 2 % of
+// the light is beyond the windows, as the bake says.
 // Bake: bakeslab bake lantern.pov -o lantern.tif --uv 16x16 --st 64x64 --rays 64
 // Use: object { Lantern_Canned(1, 1) } object { Lantern_Canned_Housing() }
 // Licence: CC0

@@ -100,6 +100,36 @@ TEST(test_twice) {
   slab_free(&other);
 }
 
+/* A page of radiance 1, 2 x 2, `ahead` of the first along its normal. */
+static struct slab page_ahead(double ahead) {
+  static const double window[4] = {-3, 3, -3, 3};
+  struct slab slab = slab_default();
+  for (int axis = 0; axis < SLAB_AXES; ++axis) slab.samples[axis] = axis < SLAB_S ? 4 : 48;
+  memcpy(slab.st_window, window, sizeof window);
+  slab.u[0] = slab.v[1] = 2;
+  slab.u[1] = slab.u[2] = slab.v[0] = slab.v[2] = 0;
+  slab.normal[0] = slab.normal[1] = 0;
+  slab.normal[2] = 1;
+  slab.center[0] = slab.center[1] = 0;
+  slab.center[2] = ahead;
+  assert_int_equal(slab_alloc(&slab, NULL), RESULT_OK);
+  for (size_t k = 0; k < 3 * slab_sample_count(&slab); ++k) slab.rgb[k] = 1;
+  return slab;
+}
+
+/* Of two pages in a row, what passes both counts once: their sum less Lambert's exchange. */
+TEST(test_lamp_counts_once) {
+  static const double square[4] = {-1, 1, -1, 1}, window[4] = {-3, 3, -3, 3};
+  struct slab pages[2] = {page_ahead(0), page_ahead(2)};
+  double flux[3], one = 4 * lambert_window(window);
+  for (int count = 1; count <= 2; ++count) {
+    double expected = count == 1 ? one : 2 * one - lambert_exchange(square, square, 2);
+    assert_int_equal(flux_box_lamp(pages, count, flux, NULL), RESULT_OK);
+    for (int c = 0; c < 3; ++c) assert_near(flux[c] / expected, 1, 0.01);
+  }
+  for (int n = 0; n < 2; ++n) slab_free(&pages[n]);
+}
+
 int main(void) {
   return testing_run(NULL, NULL);
 }
