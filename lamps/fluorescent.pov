@@ -3,7 +3,7 @@
 // It calls for interreflection: box and louvres take most of the tubes' light and pass it on.
 // The tubes glow where they are seen; what they shine on things is that of small lights along
 // their axes, closer together than the things are near. So they need no extended source.
-// `bakeslab bake` warns of these light_sources: here the tubes are seen in their place.
+// Canned_Glow tells the tubes' flux, and that these light_sources have what shows it.
 // The louvres hide the tubes above slope 6/4.5 along them and 7.5/4.5 across; the glow of the
 // louvres goes on to the side, 3 % of the light beyond the window, as the bake says.
 // Bake: bakeslab bake fluorescent.pov -o fluorescent.tif --uv 32x16 --st 48x48

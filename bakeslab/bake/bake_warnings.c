@@ -29,7 +29,9 @@ enum result bake_warn_of_lamp(const struct bake_work *work, struct lamp *lamp,
   enum result result = begin_trial(work, &trial, &scratch, error);
   if (result == RESULT_OK) result = lamp_count_lights(&trial, lamp, error);
   if (result == RESULT_OK) result = lamp_ambient_part(&trial, lamp, &ambient, error);
-  if (lamp->lights)
+  /* Where Canned_Glow tells their flux, they stand for things that are seen. */
+  bool told = lamp->glow_flux[0] + lamp->glow_flux[1] + lamp->glow_flux[2] > 0;
+  if (lamp->lights && !told)
     warnings_add(warnings,
                  "%d light_source%s besides Canned_Bulb's: a ray cannot hit a point, so %s direct "
                  "light is not in the slab, only what %s; write Canned_Bulb(centre, radius, "

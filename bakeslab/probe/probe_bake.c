@@ -15,8 +15,8 @@ enum result probe_bake(const struct bake_work *work, const struct slab *slabs,
   small.effort = (struct bake_effort){.rays = rays, .shards = 1}; /* each shard needs all of it */
   small.look.effects = effects;
   small.look.offsets = BAKE_OWN;
-  if (small.look.form == BAKE_TRANSPOSED)
-    small.look.form = work->lamp->mesh_camera ? BAKE_MESH : BAKE_PERSPECTIVE;
+  /* As frames, a quarter of a second each, its cameras would take minutes. */
+  small.look.form = work->lamp->mesh_camera ? BAKE_MESH : BAKE_PERSPECTIVE;
   int pages = work->lamp->slab_count;
   *bake = (struct probe_bake){.pages = calloc((size_t)pages, sizeof *bake->pages)};
   enum result result = bake->pages ? RESULT_OK : result_no_memory(error);
