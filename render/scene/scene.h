@@ -60,6 +60,7 @@ enum scene_ignored {
   SCENE_COLOURS,
   SCENE_EMISSION,
   SCENE_LIGHTS,
+  SCENE_STATEMENTS, /* of OBJ and MTL files */
   SCENE_IGNORED
 };
 

@@ -14,7 +14,8 @@ bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const 
       [SCENE_BUMPS] = "bump and normal maps are ignored:",
       [SCENE_COLOURS] = "colours of vertices are ignored:",
       [SCENE_EMISSION] = "emission is shown but lights nothing:",
-      [SCENE_LIGHTS] = "lights of the file are ignored:"};
+      [SCENE_LIGHTS] = "lights of the file are ignored:",
+      [SCENE_STATEMENTS] = "statements are ignored:"};
   char **there = &loading->scene->ignored[kind], *made, *quoted;
   if (asprintf(&quoted, " '%s'", name) < 0) return false;
   bool known = *there && strstr(*there, quoted);
@@ -30,4 +31,11 @@ bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const 
   free(*there);
   *there = made;
   return true;
+}
+
+bool scene_ignore_statement(struct scene_loading *loading, const char *keyword) {
+  size_t length =
+      strspn(keyword, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
+  if (length == 0 || length > 32 || keyword[length]) return true;
+  return scene_ignore(loading, SCENE_STATEMENTS, keyword);
 }

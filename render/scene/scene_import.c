@@ -240,8 +240,5 @@ enum result scene_import_meshes(struct scene_loading *loading, const struct aiSc
   struct placement mirror = {.matrix = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}}};
   enum result result = RESULT_OK;
   if (from->mRootNode) result = add_node(&import, from->mRootNode, &mirror, error);
-  if (result == RESULT_OK && loading->scene->triangles == 0)
-    result = result_fail(error, RESULT_BAD, "%s: has no triangles%s", loading->path,
-                         loading->dropped ? " with an area" : "");
   return result;
 }

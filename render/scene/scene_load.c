@@ -5,6 +5,8 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <errno.h>
+#include <float.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,9 +56,10 @@ static enum result find_format(struct scene_loading *loading, struct error *erro
                      loading->path);
 }
 
-static enum result import(struct scene_loading *loading, struct error *error) {
-  enum result result = scene_text_read(loading, error);
-  if (result == RESULT_OK && loading->format == SCENE_GLTF && loading->needs == SCENE_SURFACES)
+static enum result import_gltf(struct scene_loading *loading, struct error *error) {
+  enum result result = RESULT_OK;
+  if (loading->needs == SCENE_SURFACES) result = scene_gltf_check(loading, error);
+  if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
     result = scene_gltf_cameras(loading, error);
   if (result != RESULT_OK) return result;
   const struct aiScene *from = aiImportFile(loading->path, aiProcess_Triangulate);
@@ -67,7 +70,6 @@ static enum result import(struct scene_loading *loading, struct error *error) {
   else if (!used)
     result = result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
   if (result == RESULT_OK) result = scene_import_meshes(loading, from, used, error);
-  if (result == RESULT_OK && loading->repair) result = scene_repair(loading, error);
   if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
     result = scene_import_materials(loading, from, used, error);
   free(used);
@@ -75,21 +77,54 @@ static enum result import(struct scene_loading *loading, struct error *error) {
   return result;
 }
 
-static void write_note(const struct scene_loading *loading, char note[256]) {
+static enum result import(struct scene_loading *loading, struct error *error) {
+  static enum result (*const readers[])(struct scene_loading *, struct error *) = {
+      [SCENE_OBJ] = scene_obj_read, [SCENE_GLTF] = import_gltf, [SCENE_PLY] = scene_ply_read};
+  enum result result = readers[loading->format](loading, error);
+  if (result == RESULT_OK && loading->scene->triangles == 0)
+    result = result_fail(error, RESULT_BAD, "%s: has no triangles%s", loading->path,
+                         loading->dropped + loading->crossing ? " with an area" : "");
+  return result == RESULT_OK && loading->repair ? scene_repair(loading, error) : result;
+}
+
+static void write_repairs(const struct scene_loading *loading, char note[256]) {
   const struct {
     size_t count;
     const char *what;
   } repairs[] = {{loading->dropped, "triangles without area dropped"},
+                 {loading->crossing, "faces that cross themselves dropped"},
                  {loading->repeated, "repeated triangles dropped"},
                  {loading->flat, "meshes given flat normals"},
                  {loading->white, "materials made white"},
+                 {loading->twofold, "materials declared twice taken as first declared"},
+                 {loading->textureless, "textures that cannot be read left out"},
                  {loading->unread, "unsupported properties of materials ignored"}};
   size_t at = 0;
-  note[0] = 0;
   for (size_t k = 0; k < sizeof repairs / sizeof *repairs; ++k)
     if (repairs[k].count > 0 && at < 200)
       at += (size_t)snprintf(note + at, 256 - at, "%s%s: %zu", at > 0 ? "; " : "", repairs[k].what,
                              repairs[k].count);
+}
+
+/* Where single precision would have moved corners by a ten-thousandth of the scene's size. glTF has
+ * no more in its files. */
+static void write_precision(const struct scene_loading *loading, char note[256]) {
+  double low[3], high[3], size = 0, farthest = 0;
+  if (loading->format == SCENE_GLTF) return;
+  scene_box(loading->scene, low, high);
+  for (int c = 0; c < 3; ++c) {
+    size = fmax(size, high[c] - low[c]);
+    farthest = fmax(farthest, fmax(fabs(low[c]), fabs(high[c])));
+  }
+  int exponent;
+  frexp(farthest, &exponent);
+  double rounding = ldexp(1, exponent - FLT_MANT_DIG - 1);
+  size_t at = strlen(note);
+  if (rounding > 1e-4 * size)
+    snprintf(note + at, 256 - at,
+             "%sit is %.2g wide and %.2g from the origin, where single precision would have moved "
+             "corners by %.2g: they are kept in double precision",
+             at > 0 ? "; " : "", size, farthest, rounding);
 }
 
 enum result scene_load(const char *path, enum scene_needs needs, bool repair, struct scene *scene,
@@ -99,9 +134,11 @@ enum result scene_load(const char *path, enum scene_needs needs, bool repair, st
   enum result result = find_format(&loading, error);
   if (result == RESULT_OK) result = import(&loading, error);
   note[0] = 0;
-  if (result == RESULT_OK) write_note(&loading, note);
+  if (result == RESULT_OK) {
+    write_repairs(&loading, note);
+    write_precision(&loading, note);
+  }
   scene->metres = loading.format == SCENE_GLTF;
-  free(loading.mtl);
   if (result != RESULT_OK) scene_free(scene);
   return result;
 }

@@ -6,74 +6,28 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <unistd.h>
 
-#include "base/array.h"
-#include "file/slab_image.h"
 #include "scene/scene_load.h"
 
-/* Programs on Windows write \ between folders. */
-static char *texture_path(const struct scene_loading *loading, const char *name) {
-  char *path = scene_beside(loading->path, name);
-  if (!path || access(path, F_OK) == 0 || !strchr(name, '\\')) return path;
-  char *turned = strdup(path);
-  for (char *at = turned; at && *at; ++at)
-    if (*at == '\\') *at = '/';
-  if (turned && access(turned, F_OK) == 0) {
-    free(path);
-    return turned;
-  }
-  free(turned);
-  return path;
-}
-
-static enum result read_picture(const struct scene_loading *loading,
-                                const struct aiTexture *embedded, struct scene_texture *texture,
-                                struct error *error) {
-  enum slab_image_colours colours =
-      loading->format == SCENE_GLTF ? SLAB_IMAGE_SRGB : SLAB_IMAGE_OWN;
-  if (!embedded)
-    return slab_image_read(texture->path, NULL, 0, NULL, colours, &texture->picture, NULL, error);
+/* assimp calls the images that are within the file *0, *1 and so on. */
+static enum result find_texture(struct scene_loading *loading, const struct aiScene *from,
+                                const char *name, int *number, struct error *error) {
+  if (name[0] != '*')
+    return scene_add_texture(loading, scene_find_beside(loading->path, name), NULL, 0, NULL, number,
+                             error);
+  unsigned long k = strtoul(name + 1, NULL, 10);
+  if (k >= from->mNumTextures)
+    return result_fail(error, RESULT_BAD, "%s: has no image %lu", loading->path, k);
+  const struct aiTexture *embedded = from->mTextures[k];
+  char *path;
   if (embedded->mHeight != 0 || !embedded->pcData)
     return result_fail(error, RESULT_BAD,
                        "%s: embeds an image as bare pixels, which is not supported; embed a PNG or "
                        "JPEG file",
                        loading->path);
-  return slab_image_read(texture->path, embedded->pcData, embedded->mWidth, embedded->achFormatHint,
-                         colours, &texture->picture, NULL, error);
-}
-
-/* Loads the texture unless it is there already; *number is its number. assimp calls the
- * images that are within the file *0, *1 and so on. */
-static enum result find_texture(const struct scene_loading *loading, const struct aiScene *from,
-                                const char *name, int *number, struct error *error) {
-  struct scene *scene = loading->scene;
-  const struct aiTexture *embedded = NULL;
-  char *path = NULL;
-  if (name[0] == '*') {
-    unsigned long k = strtoul(name + 1, NULL, 10);
-    if (k >= from->mNumTextures)
-      return result_fail(error, RESULT_BAD, "%s: has no image %lu", loading->path, k);
-    embedded = from->mTextures[k];
-    if (asprintf(&path, "%s: image %lu", loading->path, k) < 0) path = NULL;
-  } else {
-    path = texture_path(loading, name);
-  }
-  int count = scene->texture_count, room = count;
-  for (int k = 0; path && k < count; ++k)
-    if (strcmp(scene->textures[k].path, path) == 0) {
-      *number = k;
-      free(path);
-      return RESULT_OK;
-    }
-  if (!path || !array_reserve(&scene->textures, &room, count + 1, sizeof *scene->textures)) {
-    free(path);
-    return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
-  }
-  *number = scene->texture_count++;
-  scene->textures[count] = (struct scene_texture){.path = path};
-  return read_picture(loading, embedded, &scene->textures[count], error);
+  if (asprintf(&path, "%s: image %lu", loading->path, k) < 0) path = NULL;
+  return scene_add_texture(loading, path, embedded->pcData, embedded->mWidth,
+                           embedded->achFormatHint, number, error);
 }
 
 static const char *mesh_of(const struct aiScene *from, unsigned material) {
@@ -93,11 +47,6 @@ static enum result no_material(struct scene_loading *loading, const struct aiSce
   make_white(material);
   if (loading->repair) return RESULT_OK;
   const char *mesh = mesh_of(from, number);
-  if (loading->format == SCENE_OBJ && strcmp(material->name, AI_DEFAULT_MATERIAL_NAME) != 0)
-    return result_fail(error, RESULT_BAD,
-                       "%s: mesh '%s' has no material: '%s' is in none of its MTL files; --repair "
-                       "makes it white",
-                       loading->path, mesh, material->name);
   return result_fail(error, RESULT_BAD, "%s: mesh '%s' has no material; --repair makes it white",
                      loading->path, mesh);
 }
@@ -106,29 +55,6 @@ static enum result ignore(struct scene_loading *loading, enum scene_ignored kind
                           const char *name, struct error *error) {
   if (!there || scene_ignore(loading, kind, name)) return RESULT_OK;
   return result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
-}
-
-static enum result from_mtl(struct scene_loading *loading, const struct aiScene *from,
-                            unsigned number, struct scene_material *material, struct error *error) {
-  const struct scene_mtl *mtl = scene_text_material(loading, material->name);
-  if (!mtl) return no_material(loading, from, number, material, error);
-  *material = mtl->material;
-  const double *glow = material->emission;
-  if (!mtl->has_diffuse && mtl->has_texture) {
-    make_white(material); /* the texture is all there is to its colour */
-  } else if (!mtl->has_diffuse && !(glow[0] > 0 || glow[1] > 0 || glow[2] > 0)) {
-    ++loading->white;
-    make_white(material);
-    if (!loading->repair)
-      return result_fail(error, RESULT_BAD,
-                         "%s: material '%s' has no Kd, map_Kd or Ke; --repair makes it white",
-                         loading->path, material->name);
-  }
-  enum result result = ignore(loading, SCENE_TRANSPARENCY, mtl->transparent || mtl->see_through,
-                              material->name, error);
-  if (result == RESULT_OK) result = ignore(loading, SCENE_BUMPS, mtl->bumps, material->name, error);
-  if (result != RESULT_OK || !mtl->has_texture) return result;
-  return find_texture(loading, from, mtl->texture, &material->texture, error);
 }
 
 /* With alphaMode OPAQUE alpha means nothing. */
@@ -236,10 +162,10 @@ static enum result check_mesh(struct scene_loading *loading, const struct aiMesh
   if (material->texture >= 0 && !has_uv)
     return scene_unread(loading, error, "%s: mesh '%s' has a texture without texture coordinates",
                         loading->path, mesh->mName.data);
-  if (loading->format == SCENE_GLTF && mesh->mColors[0])
+  if (mesh->mColors[0])
     return scene_unread(loading, error, "%s: mesh '%s' has colours at its vertices", loading->path,
                         mesh->mName.data);
-  return ignore(loading, SCENE_COLOURS, mesh->mColors[0] != NULL, mesh->mName.data, error);
+  return RESULT_OK;
 }
 
 enum result scene_import_materials(struct scene_loading *loading, const struct aiScene *from,
@@ -257,12 +183,7 @@ enum result scene_import_materials(struct scene_loading *loading, const struct a
     snprintf(material->name, sizeof material->name, "%.127s", name.data);
     material->texture = -1;
     if (!used[k]) continue;
-    if (loading->format == SCENE_OBJ)
-      result = from_mtl(loading, from, k, material, error);
-    else if (loading->format == SCENE_GLTF)
-      result = from_gltf(loading, from, k, material, error);
-    else
-      make_white(material); /* PLY has none */
+    result = from_gltf(loading, from, k, material, error);
     if (result == RESULT_OK) result = check(loading, material, error);
     const double *glow = material->emission;
     if (result == RESULT_OK)

@@ -1,159 +1,299 @@
-/* scene_ply.c - is a PLY file whole? See scene_load.h. */
+/* scene_ply.c - reads PLY files into a scene, see scene_load.h: ASCII and binary in both orders of
+ * bytes, properties in any order and of any type, faces and triangle strips.
+ *
+ * Memory grows with what the file holds, not with what its header claims. All surfaces are white;
+ * colours and textures are noted as ignored. */
 #include <ctype.h>
 #include <errno.h>
+#include <limits.h>
+#include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/scene_load.h"
+#include "base/array.h"
+#include "scene/scene_faces.h"
+#include "scene/scene_lines.h"
+#include "scene/scene_ply_header.h"
 
-enum { PROPERTIES = 64, ELEMENTS = 16 };
-
-struct ply_property {
-  size_t size;       /* bytes of a number, or of a list's items */
-  size_t count_size; /* bytes of a list's length; 0: no list */
-};
-
-struct ply_element {
-  unsigned long long count;
-  int properties;
-  struct ply_property property[PROPERTIES];
-};
+/* What a property of a vertex is: an index of struct vertex's numbers. */
+enum role { X, Y, Z, NX, NY, NZ, U, V, ROLES, COLOUR, OTHER };
 
 struct ply {
+  struct scene_loading *loading;
   FILE *file;
-  const char *path;
-  bool binary, big_endian;
-  int elements;
-  struct ply_element element[ELEMENTS];
+  struct ply_header header;
+  struct scene_faces faces;
+  bool normals, uvs, vertices_read;
+  double *list; /* of a face or strip; owned */
+  int list_count, list_room;
 };
 
-static size_t type_size(const char *name) {
-  static const struct {
-    const char *name;
-    size_t size;
-  } types[] = {{"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},
-               {"short", 2}, {"ushort", 2},  {"int16", 2},  {"uint16", 2},
-               {"int", 4},   {"uint", 4},    {"int32", 4},  {"uint32", 4},
-               {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
-  for (size_t k = 0; k < sizeof types / sizeof *types; ++k)
-    if (strcmp(name, types[k].name) == 0) return types[k].size;
-  return 0;
+static enum result checked(const struct ply *ply, bool good, struct error *error) {
+  return good ? RESULT_OK : result_at(result_no_memory(error), error, "%s", ply->loading->path);
 }
 
-static enum result bad_header(const struct ply *ply, const char *line, struct error *error) {
-  return result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: its header says '%s'",
-                     ply->path, line);
+static enum role find_role(const char *name) {
+  static const char *const names[][3] = {{"x"},
+                                         {"y"},
+                                         {"z"},
+                                         {"nx"},
+                                         {"ny"},
+                                         {"nz"},
+                                         {"s", "u", "texture_u"},
+                                         {"t", "v", "texture_v"}};
+  static const char *const colours[] = {"red", "green", "blue", "r", "g", "b", "diffuse_red"};
+  for (int role = 0; role < ROLES; ++role)
+    for (int k = 0; k < 3 && names[role][k]; ++k)
+      if (strcmp(name, names[role][k]) == 0) return (enum role)role;
+  for (size_t k = 0; k < sizeof colours / sizeof *colours; ++k)
+    if (strcmp(name, colours[k]) == 0) return COLOUR;
+  return OTHER;
 }
 
-static enum result read_header_line(struct ply *ply, const char *line, struct error *error) {
-  char words[4][32] = {"", "", "", ""};
-  sscanf(line, "%31s %31s %31s %31s", words[0], words[1], words[2], words[3]);
-  if (strcmp(words[0], "format") == 0) {
-    ply->binary = strncmp(words[1], "binary", 6) == 0;
-    ply->big_endian = strcmp(words[1], "binary_big_endian") == 0;
-  } else if (strcmp(words[0], "element") == 0) {
-    char *end;
-    if (ply->elements == ELEMENTS) return bad_header(ply, line, error);
-    struct ply_element *element = &ply->element[ply->elements++];
-    element->count = strtoull(words[2], &end, 10);
-    if (end == words[2] || *end || words[2][0] == '-') return bad_header(ply, line, error);
-  } else if (strcmp(words[0], "property") == 0) {
-    struct ply_element *element = ply->elements ? &ply->element[ply->elements - 1] : NULL;
-    if (!element || element->properties == PROPERTIES) return bad_header(ply, line, error);
-    struct ply_property *property = &element->property[element->properties++];
-    bool list = strcmp(words[1], "list") == 0;
-    property->count_size = list ? type_size(words[2]) : 0;
-    property->size = type_size(words[list ? 3 : 1]);
-    if (!property->size || (list && !property->count_size)) return bad_header(ply, line, error);
-  }
-  return RESULT_OK;
-}
-
-static enum result read_header(struct ply *ply, struct error *error) {
-  enum result result = RESULT_OK;
-  char *line = NULL;
-  size_t room = 0;
-  bool ended = false;
-  while (result == RESULT_OK && !ended && getline(&line, &room, ply->file) >= 0) {
-    line[strcspn(line, "\r\n")] = 0;
-    ended = strcmp(line, "end_header") == 0;
-    if (!ended) result = read_header_line(ply, line, error);
-  }
-  if (result == RESULT_OK && !ended && !feof(ply->file))
-    result = result_fail(error, RESULT_IO, "%s: %s", ply->path, strerror(errno));
-  free(line);
-  if (result == RESULT_OK && !ended)
-    result = result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: its header has no end",
-                         ply->path);
-  return result;
-}
-
-static bool skip(struct ply *ply, unsigned long long bytes) {
-  char buffer[4096];
-  while (bytes > 0) {
-    size_t part = bytes < sizeof buffer ? (size_t)bytes : sizeof buffer;
-    if (fread(buffer, 1, part, ply->file) != part) return false;
-    bytes -= part;
-  }
-  return true;
-}
-
-/* Skips a word of a text; as a number, 0 where it is none. */
-static bool skip_word(FILE *file, unsigned long long *number) {
-  char word[32];
+/* ASCII: false at the end of the file, and for what is no number. */
+static bool read_word(FILE *file, double *number) {
+  char word[64], *end;
   size_t length = 0;
   int c = getc_unlocked(file);
   while (c != EOF && isspace(c)) c = getc_unlocked(file);
-  for (; c != EOF && !isspace(c); c = getc_unlocked(file))
-    if (length < sizeof word - 1) word[length++] = (char)c;
+  for (; c != EOF && !isspace(c); c = getc_unlocked(file)) {
+    if (length == sizeof word - 1) return false;
+    word[length++] = (char)c;
+  }
   word[length] = 0;
-  *number = strtoull(word, NULL, 10);
-  return length > 0;
+  *number = scene_number(word, &end);
+  return length > 0 && !*end;
 }
 
-static bool skip_text(struct ply *ply, const struct ply_property *property) {
-  unsigned long long count = 0, number;
-  if (!skip_word(ply->file, &count)) return false;
-  for (; property->count_size > 0 && count > 0; --count)
-    if (!skip_word(ply->file, &number)) return false;
+static bool read_binary(const struct ply *ply, enum ply_type type, double *number) {
+  unsigned char bytes[8];
+  int size = ply_sizes[type];
+  uint64_t bits = 0;
+  if (fread_unlocked(bytes, 1, (size_t)size, ply->file) != (size_t)size) return false;
+  for (int k = 0; k < size; ++k)
+    bits = bits << 8 | bytes[ply->header.big_endian ? k : size - 1 - k];
+  uint32_t half = (uint32_t)bits;
+  float single;
+  switch (type) {
+  case PLY_INT8:
+    *number = (int8_t)bits;
+    break;
+  case PLY_INT16:
+    *number = (int16_t)bits;
+    break;
+  case PLY_INT32:
+    *number = (int32_t)half;
+    break;
+  case PLY_FLOAT:
+    memcpy(&single, &half, sizeof single);
+    *number = (double)single;
+    break;
+  case PLY_DOUBLE:
+    memcpy(number, &bits, sizeof bits);
+    break;
+  default:
+    *number = (double)bits;
+  }
   return true;
 }
 
-static bool skip_property(struct ply *ply, const struct ply_property *property) {
-  unsigned char bytes[8];
-  uint64_t count = 0;
-  if (!ply->binary) return skip_text(ply, property);
-  if (property->count_size == 0) return skip(ply, property->size);
-  if (fread(bytes, 1, property->count_size, ply->file) != property->count_size) return false;
-  for (size_t k = 0; k < property->count_size; ++k)
-    count = count << 8 | bytes[ply->big_endian ? k : property->count_size - 1 - k];
-  return count <= UINT32_MAX && skip(ply, count * property->size);
+static bool read_number(const struct ply *ply, enum ply_type type, double *number) {
+  return ply->header.binary ? read_binary(ply, type, number) : read_word(ply->file, number);
 }
 
-/* Of text too: assimp makes room for all elements that the header claims. */
-static enum result skip_data(struct ply *ply, struct error *error) {
-  for (int e = 0; e < ply->elements; ++e) {
-    const struct ply_element *element = &ply->element[e];
-    if (element->count > 0 && element->properties == 0)
-      return result_fail(error, RESULT_BAD,
-                         "%s: cannot be read as a mesh: element %d has no properties", ply->path,
-                         e + 1);
-    for (unsigned long long k = 0; k < element->count; ++k)
-      for (int p = 0; p < element->properties; ++p)
-        if (!skip_property(ply, &element->property[p]))
-          return result_fail(error, RESULT_BAD, "%s: is cut off: element %llu of %llu is not whole",
-                             ply->path, k + 1, element->count);
+static enum result not_whole(const struct ply *ply, const struct ply_element *element,
+                             unsigned long long number, struct error *error) {
+  if (ferror(ply->file))
+    return result_fail(error, RESULT_IO, "%s: %s", ply->loading->path, strerror(errno));
+  if (feof(ply->file))
+    return result_fail(error, RESULT_BAD, "%s: is cut off: element '%s' %llu of %llu is not whole",
+                       ply->loading->path, element->name, number + 1, element->count);
+  return result_fail(error, RESULT_BAD, "%s: element '%s' %llu has something that is no number",
+                     ply->loading->path, element->name, number + 1);
+}
+
+/* Reads a property; lists into ply->list where they are `kept`. False where it is not whole. */
+static bool read_property(struct ply *ply, const struct ply_property *property, bool kept,
+                          double *number, enum result *result, struct error *error) {
+  double count;
+  if (property->count == PLY_NONE) return read_number(ply, property->type, number);
+  if (!read_number(ply, property->count, &count) || !(count >= 0) || count > UINT32_MAX ||
+      floor(count) < count)
+    return false;
+  if (kept) ply->list_count = 0;
+  for (double k = 0; k < count; ++k) {
+    if (!read_number(ply, property->type, number)) return false;
+    if (!kept) continue;
+    if (ply->list_count == INT_MAX ||
+        !array_reserve(&ply->list, &ply->list_room, ply->list_count + 1, sizeof *ply->list)) {
+      *result = checked(ply, false, error);
+      return true;
+    }
+    ply->list[ply->list_count++] = *number;
   }
+  return true;
+}
+
+static enum result add_vertex(struct ply *ply, const double numbers[], struct error *error) {
+  enum result result = scene_faces_position(&ply->faces, numbers, error);
+  if (result == RESULT_OK && ply->normals)
+    result = scene_faces_normal(&ply->faces, numbers + NX, error);
+  if (result == RESULT_OK && ply->uvs) result = scene_faces_uv(&ply->faces, numbers + U, error);
+  return result;
+}
+
+/* What the properties of vertices are; notes the colours. */
+static enum result find_roles(struct ply *ply, const struct ply_element *element, enum role *roles,
+                              struct error *error) {
+  bool there[OTHER + 1] = {false}, good = true;
+  for (int p = 0; p < element->properties; ++p) {
+    bool list = element->property[p].count != PLY_NONE;
+    roles[p] = list ? OTHER : find_role(element->property[p].name);
+    there[roles[p]] = true;
+  }
+  if (!there[X] || !there[Y] || !there[Z])
+    return result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: vertices have no x, y, z",
+                       ply->loading->path);
+  bool surfaces = ply->loading->needs == SCENE_SURFACES;
+  ply->normals = surfaces && there[NX] && there[NY] && there[NZ];
+  ply->uvs = surfaces && there[U] && there[V];
+  if (surfaces && there[COLOUR]) good = scene_ignore(ply->loading, SCENE_COLOURS, "vertex");
+  return checked(ply, good, error);
+}
+
+static enum result read_vertices(struct ply *ply, const struct ply_element *element,
+                                 struct error *error) {
+  enum role roles[PLY_PROPERTIES];
+  if (ply->vertices_read)
+    return result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: it has vertices twice",
+                       ply->loading->path);
+  ply->vertices_read = true;
+  enum result result = find_roles(ply, element, roles, error);
+  for (unsigned long long k = 0; k < element->count && result == RESULT_OK; ++k) {
+    double numbers[OTHER + 1] = {0};
+    for (int p = 0; p < element->properties; ++p)
+      if (!read_property(ply, &element->property[p], false, &numbers[roles[p]], &result, error))
+        return not_whole(ply, element, k, error);
+    result = add_vertex(ply, numbers, error);
+  }
+  return result;
+}
+
+/* Numbers that are none of a vertex become INT_MAX. */
+static struct scene_corner make_corner(const struct ply *ply, double index) {
+  int k = index >= 0 && index < INT_MAX && floor(index) == index ? (int)index : INT_MAX;
+  return (struct scene_corner){k, ply->normals ? k : -1, ply->uvs ? k : -1};
+}
+
+static enum result add_face(struct ply *ply, struct scene_corner **corner, int *room,
+                            struct error *error) {
+  if (!array_reserve(corner, room, ply->list_count, sizeof **corner))
+    return checked(ply, false, error);
+  for (int k = 0; k < ply->list_count; ++k) (*corner)[k] = make_corner(ply, ply->list[k]);
+  return scene_faces_add(&ply->faces, *corner, ply->list_count, error);
+}
+
+/* Each corner makes a triangle with the two before it, every other one turned over; -1 begins a new
+ * strip. Triangles of less than three different corners only lead on. */
+static enum result add_strip(struct ply *ply, struct error *error) {
+  enum result result = RESULT_OK;
+  int begun = 0;
+  for (int k = 0; k < ply->list_count && result == RESULT_OK; ++k, ++begun) {
+    const double *index = &ply->list[k];
+    if (*index == -1) begun = -1;
+    if (begun < 2 || index[0] == index[-1] || index[0] == index[-2] || index[-1] == index[-2])
+      continue;
+    int turned = begun % 2;
+    const struct scene_corner corners[3] = {make_corner(ply, index[-2 + turned]),
+                                            make_corner(ply, index[-1 - turned]),
+                                            make_corner(ply, index[0])};
+    result = scene_faces_add(&ply->faces, corners, 3, error);
+  }
+  return result;
+}
+
+static int find_list(const struct ply_element *element) {
+  for (int p = 0; p < element->properties; ++p)
+    if (element->property[p].count != PLY_NONE &&
+        (strcmp(element->property[p].name, "vertex_indices") == 0 ||
+         strcmp(element->property[p].name, "vertex_index") == 0))
+      return p;
+  return -1;
+}
+
+/* Faces, or strips of triangles. */
+static enum result read_faces(struct ply *ply, const struct ply_element *element, bool strips,
+                              struct error *error) {
+  struct scene_corner *corner = NULL;
+  int room = 0, list = find_list(element);
+  enum result result = RESULT_OK;
+  if (list < 0 || (!ply->vertices_read && element->count > 0))
+    return result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: %s", ply->loading->path,
+                       list < 0 ? "faces have no list vertex_indices"
+                                : "faces come before vertices");
+  for (unsigned long long k = 0; k < element->count && result == RESULT_OK; ++k) {
+    double number;
+    ply->faces.number = (size_t)k + 1;
+    for (int p = 0; p < element->properties && result == RESULT_OK; ++p)
+      if (!read_property(ply, &element->property[p], p == list, &number, &result, error))
+        result = not_whole(ply, element, k, error);
+    if (result == RESULT_OK)
+      result = strips ? add_strip(ply, error) : add_face(ply, &corner, &room, error);
+  }
+  free(corner);
+  return result;
+}
+
+static enum result skip(struct ply *ply, const struct ply_element *element, struct error *error) {
+  enum result result = RESULT_OK;
+  double number;
+  for (unsigned long long k = 0; k < element->count; ++k)
+    for (int p = 0; p < element->properties; ++p)
+      if (!read_property(ply, &element->property[p], false, &number, &result, error))
+        return not_whole(ply, element, k, error);
   return RESULT_OK;
 }
 
-enum result scene_ply_check(const char *path, struct error *error) {
-  struct ply ply = {.path = path, .file = fopen(path, "re")};
-  if (!ply.file) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
-  enum result result = read_header(&ply, error);
-  if (result == RESULT_OK) result = skip_data(&ply, error);
-  fclose(ply.file);
+static enum result read_data(struct ply *ply, struct error *error) {
+  enum result result = RESULT_OK;
+  for (int e = 0; e < ply->header.elements && result == RESULT_OK; ++e) {
+    const struct ply_element *element = &ply->header.element[e];
+    bool strips = strcmp(element->name, "tristrips") == 0;
+    if (strcmp(element->name, "vertex") == 0)
+      result = read_vertices(ply, element, error);
+    else if (strips || strcmp(element->name, "face") == 0)
+      result = read_faces(ply, element, strips, error);
+    else
+      result = skip(ply, element, error);
+  }
+  return result;
+}
+
+/* PLY knows no materials: one that is white. */
+static enum result add_material(struct ply *ply, struct error *error) {
+  struct scene *scene = ply->loading->scene;
+  scene->materials = calloc(1, sizeof *scene->materials);
+  if (!scene->materials) return checked(ply, false, error);
+  scene->material_count = 1;
+  *scene->materials = (struct scene_material){.diffuse = {1, 1, 1}, .texture = -1};
+  bool good = !*ply->header.texture || scene_ignore_statement(ply->loading, "TextureFile");
+  return checked(ply, good, error);
+}
+
+enum result scene_ply_read(struct scene_loading *loading, struct error *error) {
+  struct ply *ply = calloc(1, sizeof *ply);
+  if (!ply) return result_no_memory(error);
+  ply->loading = ply->faces.loading = loading;
+  ply->file = fopen(loading->path, "re");
+  enum result result = RESULT_OK;
+  if (!ply->file) result = result_fail(error, RESULT_IO, "%s: %s", loading->path, strerror(errno));
+  if (result == RESULT_OK) result = ply_header_read(ply->file, loading->path, &ply->header, error);
+  if (result == RESULT_OK && loading->needs == SCENE_SURFACES) result = add_material(ply, error);
+  if (result == RESULT_OK) result = read_data(ply, error);
+  if (ply->file) fclose(ply->file);
+  scene_faces_free(&ply->faces);
+  free(ply->list);
+  free(ply);
   return result;
 }

@@ -79,26 +79,27 @@ TEST(test_obj_refused) {
        "materials made white: 1"},
       {"mtllib k.mtl\n" MESHES_CORNERS "usemtl y\nf 1//1 2//1 3//1\n", "'y' is in none", false,
        "materials made white: 1"},
-      {"mtllib k.mtl\n" MESHES_CORNERS "usemtl x\no m\nf 1 2 3\n", "mesh 'm' has no normals", false,
-       "meshes given flat normals: 1"},
+      {"mtllib k.mtl\n" MESHES_CORNERS "usemtl x\no m\nf 1 2 3\n",
+       "face of mesh 'm' has no normals", false, "meshes given flat normals: 1"},
       {"mtllib k.mtl\n" MESHES_CORNERS "vn 0 0 0\nusemtl x\no m\nf 1//2 2//2 3//2\n",
        "normal without direction", false, "meshes given flat normals: 1"},
       {"mtllib k.mtl\n" MESHES_CORNERS "usemtl empty\nf 1//1 2//1 3//1\n", "no Kd, map_Kd or Ke",
        false, "materials made white: 1"},
       {"mtllib k.mtl\n" MESHES_CORNERS "usemtl x\no m\nf 1//1 2//1 2//1\nf 1//1 2//1 3//1\n",
-       "mesh 'm': triangle 1 has no area", true, "triangles without area dropped: 1"},
+       ".obj:9: face of mesh 'm' has no area", true, "triangles without area dropped: 1"},
       {"mtllib k.mtl\n" MESHES_CORNERS
        "v 1 0 1e-9\nusemtl x\no m\nf 1//1 2//1 3//1\nf 1//1 2//1 5//1\n",
-       "mesh 'm': triangle 2 has no area", true, "triangles without area dropped: 1"},
+       ".obj:11: face of mesh 'm' has no area", true, "triangles without area dropped: 1"},
       {"mtllib k.mtl\n" MESHES_CORNERS "usemtl x\nf 1//1 2//1 2//1\n", "no area", true, NULL},
       {MESHES_CORNERS "v 1 nan 2\nf 1 2 3\n", ".obj:6: 'v 1 nan 2'", true, NULL},
       {MESHES_CORNERS "v 1 1e39 2\nf 1 2 3\n", "finite numbers", true, NULL},
       {MESHES_CORNERS "v 1 two 2\nf 1 2 3\n", "finite numbers", true, NULL},
       {MESHES_CORNERS "v 1 2 # 3\nf 1 2 3\n", "finite numbers", true, NULL},
       {MESHES_CORNERS "vn 1 inf 2\nf 1 2 3\n", "finite numbers", true, NULL},
-      {MESHES_CORNERS "f 1 2 9\n", "cannot be read as a mesh", true, NULL},
+      {"mtllib k.mtl\n" MESHES_CORNERS "usemtl x\nf 1 2 9\n",
+       ".obj:8: face has a corner that is no vertex", true, NULL},
       {"v 0 0 0\nv 1 0 0\nv 0 1 1\n", "has no triangles", true, NULL},
-      {"", "cannot be read as a mesh", true, NULL},
+      {"", "has no triangles", true, NULL},
   };
   meshes_write("k.mtl", "newmtl x\nKd 1 1 1\nnewmtl empty\nNs 3\n");
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
@@ -212,7 +213,7 @@ TEST(test_ply) {
   expect_colour(scene.normal[0], 0, 0, -1);
   scene_free(&scene);
   path = meshes_write("c.ply", PLY PLY_FACE "0 0 nan\n1 0 5\n0 1 5\n3 0 1 2\n");
-  meshes_refused(path, SCENE_SHAPE, true, "triangle 1 has coordinates that are not finite");
+  meshes_refused(path, SCENE_SHAPE, true, "face 1 has coordinates that are not finite");
   static const char *const broken[][2] = {
       {"0 0 0 0 0 0", "is cut off"},
       {"0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 3 face", "is cut off"},
@@ -227,7 +228,7 @@ TEST(test_ply) {
     meshes_refused(meshes_write("e.ply", binary), SCENE_SHAPE, true, broken[k][1]);
   }
   path = meshes_write("d.ply", PLY PLY_FACE "0 0 0\n1 0 5\n0 1 5\n3 0 1 7\n");
-  meshes_refused(path, SCENE_SHAPE, true, "d.ply");
+  meshes_refused(path, SCENE_SHAPE, true, "face 1 has a corner that is no vertex");
 }
 
 #define METAL                                                                                      \
