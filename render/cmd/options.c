@@ -61,7 +61,9 @@ static const struct argp_option light_options[] = {
      "and where it is; may be repeated",
      0},
     {"repair", OPTION_REPAIR, NULL, 0,
-     "Mend the mesh: drop repeated triangles and those without area, make up normals and materials",
+     "Mend the mesh: drop repeated triangles, those without area and faces that cross themselves, "
+     "make "
+     "up normals and materials, do without textures that cannot be read",
      0},
     {0}};
 

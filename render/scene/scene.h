@@ -1,9 +1,10 @@
 /* scene.h - a mesh scene in POV-Ray's coordinates: left-handed, y up.
  *
- * OBJ+MTL, glTF (.gltf, .glb) and PLY by assimp; x and y are kept and z is mirrored, as is
- * usual when such meshes are brought to POV-Ray. Triangles are wound so that edge01 x edge02,
- * by components, points out where the file's did. Node transforms are applied; polygons are
- * triangulated; lines and points are left out.
+ * OBJ+MTL (scene_obj.c, scene_mtl.h) and PLY (scene_ply.c) in double precision, glTF (.gltf, .glb)
+ * by assimp; x and y are kept and z is mirrored, as is usual when such meshes are brought to
+ * POV-Ray. Triangles are wound so that edge01 x edge02, by components, points out where the file's
+ * did. Node transforms are applied; faces of any shape are triangulated (scene_faces.h); lines and
+ * points are left out.
  *
  * Materials: diffuse is the reflectance (OBJ's Kd, glTF's base colour times 1 - metallic):
  * a surface shows diffuse E/pi. specular and shininess mean what OBJ's Ks and Ns and
@@ -15,7 +16,8 @@
  *
  * All surfaces are opaque and two-sided; illumination models, ambient colours and occlusion maps
  * are not read. Transparency, bump and normal maps, lights, PLY's and OBJ's colours of vertices are
- * ignored, and told in scene.ignored, as is emission, which is shown but lights nothing. Anything
+ * ignored, and told in scene.ignored, as is emission, which is shown but lights nothing, and as are
+ * statements of OBJ and MTL files that nobody knows. Anything
  * else that would change the picture is refused (or ignored, with `repair`): other textures than
  * those of the diffuse colour, options of map_Kd, extensions and vertex colours of glTF. */
 #ifndef SCENE_H
@@ -85,11 +87,14 @@ enum scene_needs {
   SCENE_SURFACES /* normals, materials and textures too */
 };
 
-/* Refuses, naming the file, the mesh and the triangle: NaN, triangles without area (a height
- * below single precision) and, for SCENE_SURFACES, meshes without normals or materials. With
- * `repair` it drops such triangles and those that repeat another one, gives flat normals and a
- * white material instead (NaN is still refused) and says in `note` what it did, or leaves it
- * empty.
+/* Refuses, naming the file and the line, the face or the mesh: NaN, corners that are no vertex,
+ * triangles without area (a height below single precision), faces that cross themselves and, for
+ * SCENE_SURFACES, meshes without normals or materials, materials that are declared twice, and
+ * textures that cannot be read. With `repair` it drops such triangles and faces and those that
+ * repeat another one, gives flat normals and a white material instead, takes the first of two
+ * materials, and does without such textures (NaN and corners that are no vertex are still
+ * refused). It says in `note` what it did, and where single precision would have moved corners, or
+ * leaves it empty.
  *
  * For SCENE_SHAPE, normal, uv, material, materials and textures are NULL.
  * Textures are read by slab_image.h, in the colours that they say; those of glTF are sRGB, whatever

@@ -81,7 +81,7 @@ enum result scene_lines_read(const char *path, scene_line_reader *reader, void *
   enum result result = RESULT_OK;
   bool ended = false;
   if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-    return result_fail(error, RESULT_BAD, "%s: is not a file", path);
+    return result_fail(error, RESULT_IO, "%s: is not a file", path);
   text.file = fopen(path, "re");
   if (!text.file) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
   setvbuf(text.file, NULL, _IOFBF, BUFFER);
