@@ -88,20 +88,33 @@ static bool has_area(const double *const corner[3], double normal[3]) {
   return area > FLT_EPSILON * longest * longest && vector_normalise(normal);
 }
 
+/* Normals and texture coordinates that are not there become none. */
+static enum result check_names(struct scene_faces *faces, struct scene_corner *corner, int count,
+                               struct error *error) {
+  bool missing = false, shape = faces->loading->needs == SCENE_SHAPE;
+  for (int k = 0; k < count; ++k) {
+    missing |= corner[k].normal >= faces->normals || corner[k].uv >= faces->uvs;
+    if (shape || corner[k].normal >= faces->normals) corner[k].normal = -1;
+    if (shape || corner[k].uv >= faces->uvs) corner[k].uv = -1;
+    for (int c = 0; c < 2 && corner[k].uv >= 0; ++c)
+      if (!isfinite((float)faces->uv[corner[k].uv][c]))
+        return scene_faces_fail(faces, "has texture coordinates that are not finite", error);
+  }
+  if (!missing || shape) return RESULT_OK;
+  return drop(faces, &faces->loading->unnamed,
+              "has a corner whose normal or texture coordinates are not there; --repair ignores "
+              "them",
+              error);
+}
+
 static enum result check_corners(const struct scene_faces *faces, const struct scene_corner *corner,
                                  int count, struct error *error) {
   for (int k = 0; k < count; ++k) {
     if (corner[k].position < 0 || corner[k].position >= faces->positions)
       return scene_faces_fail(faces, "has a corner that is no vertex", error);
-    if (corner[k].normal >= faces->normals || corner[k].uv >= faces->uvs)
-      return scene_faces_fail(
-          faces, "has a corner whose normal or texture coordinates are not there", error);
     for (int c = 0; c < 3; ++c)
       if (!isfinite((float)faces->position[corner[k].position][c]))
         return scene_faces_fail(faces, "has coordinates that are not finite", error);
-    for (int c = 0; c < 2 && corner[k].uv >= 0; ++c)
-      if (!isfinite((float)faces->uv[corner[k].uv][c]))
-        return scene_faces_fail(faces, "has texture coordinates that are not finite", error);
   }
   return RESULT_OK;
 }
@@ -261,12 +274,13 @@ static int add_triangles(struct scene_faces *faces, const struct scene_corner *c
   return (int)(scene->triangles - before);
 }
 
-enum result scene_faces_add(struct scene_faces *faces, const struct scene_corner *corners,
-                            int count, struct error *error) {
+enum result scene_faces_add(struct scene_faces *faces, struct scene_corner *corners, int count,
+                            struct error *error) {
   struct scene_loading *loading = faces->loading;
   int made = 0;
   bool crosses = false, flat = false;
   enum result result = check_corners(faces, corners, count, error);
+  if (result == RESULT_OK) result = check_names(faces, corners, count, error);
   if (result == RESULT_OK && count < 3)
     return drop(faces, &loading->dropped, "has less than three corners; --repair drops it", error);
   if (result == RESULT_OK) result = triangulate(faces, corners, count, &made, &crosses, error);

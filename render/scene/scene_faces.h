@@ -41,11 +41,12 @@ enum result scene_faces_position(struct scene_faces *faces, const double xyz[3],
 enum result scene_faces_normal(struct scene_faces *faces, const double xyz[3], struct error *error);
 enum result scene_faces_uv(struct scene_faces *faces, const double uv[2], struct error *error);
 
-/* Adds a face. Refuses corners that are not there and coordinates that are not finite; faces
- * without area and those that cross themselves, which `repair` drops; for SCENE_SURFACES, corners
- * without a normal, instead of which `repair` gives the face flat ones. */
-enum result scene_faces_add(struct scene_faces *faces, const struct scene_corner *corners,
-                            int count, struct error *error);
+/* Adds a face, whose corners may be changed. Refuses corners that are not there and coordinates
+ * that are not finite; faces without area and those that cross themselves, which `repair` drops;
+ * for SCENE_SURFACES, corners without a normal, instead of which `repair` gives the face flat ones,
+ * and normals and texture coordinates that are not there, which it takes for none. */
+enum result scene_faces_add(struct scene_faces *faces, struct scene_corner *corners, int count,
+                            struct error *error);
 
 /* "PATH:LINE: face of mesh 'NAME'" or "PATH: face NUMBER". */
 enum result scene_faces_fail(const struct scene_faces *faces, const char *what,

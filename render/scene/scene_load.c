@@ -95,6 +95,7 @@ static void write_repairs(const struct scene_loading *loading, char note[256]) {
                  {loading->crossing, "faces that cross themselves dropped"},
                  {loading->repeated, "repeated triangles dropped"},
                  {loading->flat, "meshes given flat normals"},
+                 {loading->unnamed, "faces taken to have no such normals or texture coordinates"},
                  {loading->white, "materials made white"},
                  {loading->twofold, "materials declared twice taken as first declared"},
                  {loading->textureless, "textures that cannot be read left out"},

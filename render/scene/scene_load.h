@@ -21,6 +21,7 @@ struct scene_loading {
   size_t crossing;    /* faces that cross themselves, dropped */
   size_t repeated;    /* triangles, dropped too */
   size_t flat;        /* meshes */
+  size_t unnamed;     /* faces, whose normals or texture coordinates are not there */
   size_t white;       /* materials */
   size_t twofold;     /* materials that are declared twice */
   size_t textureless; /* materials, whose texture cannot be read */

@@ -70,7 +70,11 @@ static bool read_binary(const struct ply *ply, enum ply_type type, double *numbe
   unsigned char bytes[8];
   int size = ply_sizes[type];
   uint64_t bits = 0;
-  if (fread_unlocked(bytes, 1, (size_t)size, ply->file) != (size_t)size) return false;
+  for (int k = 0; k < size; ++k) {
+    int c = getc_unlocked(ply->file);
+    if (c == EOF) return false;
+    bytes[k] = (unsigned char)c;
+  }
   for (int k = 0; k < size; ++k)
     bits = bits << 8 | bytes[ply->header.big_endian ? k : size - 1 - k];
   uint32_t half = (uint32_t)bits;
@@ -122,7 +126,7 @@ static bool read_property(struct ply *ply, const struct ply_property *property, 
       floor(count) < count)
     return false;
   if (kept) ply->list_count = 0;
-  for (double k = 0; k < count; ++k) {
+  for (uint64_t left = (uint64_t)count; left > 0; --left) {
     if (!read_number(ply, property->type, number)) return false;
     if (!kept) continue;
     if (ply->list_count == INT_MAX ||
@@ -164,7 +168,7 @@ static enum result find_roles(struct ply *ply, const struct ply_element *element
 
 static enum result read_vertices(struct ply *ply, const struct ply_element *element,
                                  struct error *error) {
-  enum role roles[PLY_PROPERTIES];
+  enum role roles[PLY_PROPERTIES] = {X};
   if (ply->vertices_read)
     return result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: it has vertices twice",
                        ply->loading->path);
@@ -205,9 +209,9 @@ static enum result add_strip(struct ply *ply, struct error *error) {
     if (begun < 2 || index[0] == index[-1] || index[0] == index[-2] || index[-1] == index[-2])
       continue;
     int turned = begun % 2;
-    const struct scene_corner corners[3] = {make_corner(ply, index[-2 + turned]),
-                                            make_corner(ply, index[-1 - turned]),
-                                            make_corner(ply, index[0])};
+    struct scene_corner corners[3] = {make_corner(ply, index[-2 + turned]),
+                                      make_corner(ply, index[-1 - turned]),
+                                      make_corner(ply, index[0])};
     result = scene_faces_add(&ply->faces, corners, 3, error);
   }
   return result;

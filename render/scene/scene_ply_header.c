@@ -76,9 +76,6 @@ static bool read_statement(struct ply_header *header, const char *line, bool *en
     good = read_property(header, words);
   else if (strcmp(words[0], "comment") == 0 && strcmp(words[1], "TextureFile") == 0)
     sscanf(line, " comment TextureFile %255[^\n]", header->texture);
-  else
-    good = *ended || !words[0][0] || strcmp(words[0], "comment") == 0 ||
-           strcmp(words[0], "obj_info") == 0;
   return good;
 }
 

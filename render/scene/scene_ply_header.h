@@ -45,7 +45,7 @@ struct ply_header {
 };
 
 /* Reads it, and leaves the file at the data. Lines may be of any length and end with LF, CR or
- * both; what is no comment is refused where it is not understood. */
+ * both. Lines that begin with other words are comments: some programs break these. */
 enum result ply_header_read(FILE *file, const char *path, struct ply_header *header,
                             struct error *error);
 

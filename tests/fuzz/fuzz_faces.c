@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   for (int k = 0; k < made; ++k) {
     const double *at[3];
     for (int c = 0; c < 3; ++c) {
-      fuzz_check(triangle[k][c] >= 0 && triangle[k][c] < count);
+      fuzz_check((unsigned)triangle[k][c] < (unsigned)count);
       at[c] = corner[triangle[k][c]];
     }
     double own = (at[1][2] - at[0][2]) * (at[2][0] - at[0][0]) -
