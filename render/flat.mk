@@ -2,9 +2,8 @@
 RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c)) $(patsubst %,$(B)/%.o,$(wildcard render/*/*.cc))
 
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
-# Its predicates are exact by intervals, which change the mode of rounding. clang as a linker of C
-# has no run-time for C++'s types.
-$(B)/render/scene/scene_triangulate.cc.o: EXTRA_CXXFLAGS = -frounding-math -fno-sanitize=vptr
+# Its predicates are exact by intervals, which change the mode of rounding.
+$(B)/render/scene/scene_triangulate.cc.o: EXTRA_CXXFLAGS = -frounding-math
 
 RENDER_OBJECTS += $(B)/render/gl/gl_shaders.o
 $(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) bakeslab/base/embed.sh | $(SETUP_FIRST)

@@ -1,6 +1,7 @@
 # What is given to break the programs. tests/fuzz/fuzz_*.c are fuzzers, each with its seeds in
 # tests/fuzz/seeds/: the seeds run in `make test` as fuzz/tiff and so on; `make fuzz` builds the
-# fuzzers with libFuzzer and gives each its part of FUZZ_SECONDS.
+# fuzzers with libFuzzer and gives each its part of FUZZ_SECONDS; they are linked as C++, which
+# CGAL's checked types ask for.
 FUZZ_SOURCES := $(sort $(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_NAMES := $(FUZZ_SOURCES:tests/fuzz/fuzz_%.c=%)
 FUZZ_SECONDS ?= 60
@@ -20,7 +21,7 @@ $(B)/tests/fuzz/$(1).log: $(B)/tests/fuzz/corpus_$(1) FORCE
 
 $(B)/tests/fuzz/fuzz_$(1): $(B)/tests/fuzz/fuzz_$(1).o $(B)/tests/fuzz/fuzz.o $(call fuzz_tested,$(1))
 	$$(call say,LINK,$$@)
-	$$(Q)$$(CC) $$(ALL_LDFLAGS) -fsanitize=fuzzer $$^ $$(call fuzz_libs,$(1)) -o $$@
+	$$(Q)$$(CXX) $$(ALL_LDFLAGS) -fsanitize=fuzzer $$^ $$(call fuzz_libs,$(1)) -o $$@
 endef
 $(foreach f,$(FUZZ_NAMES),$(eval $(call fuzz_programs,$(f))))
 
