@@ -2,8 +2,9 @@
 RENDER_OBJECTS := $(patsubst %.c,$(B)/%.o,$(wildcard render/*/*.c)) $(patsubst %,$(B)/%.o,$(wildcard render/*/*.cc))
 
 $(RENDER_OBJECTS) $(B)/render/main.o: EXTRA_CFLAGS = $(RENDER_CFLAGS)
-# Its predicates are exact by intervals, which change the mode of rounding.
-$(B)/render/scene/scene_triangulate.cc.o: EXTRA_CXXFLAGS = -frounding-math
+# Its predicates are exact by intervals, which change the mode of rounding, and by long numbers, of
+# which CGAL shifts negative digits.
+$(B)/render/scene/scene_triangulate.cc.o: EXTRA_CXXFLAGS = -frounding-math -fno-sanitize=shift-base
 
 RENDER_OBJECTS += $(B)/render/gl/gl_shaders.o
 $(B)/render/gl/gl_shaders.c: $(sort $(wildcard render/gl/shaders/*.glsl)) bakeslab/base/embed.sh | $(SETUP_FIRST)

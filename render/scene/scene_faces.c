@@ -76,8 +76,7 @@ static enum result drop(struct scene_faces *faces, size_t *count, const char *wh
   return faces->loading->repair ? RESULT_OK : scene_faces_fail(faces, what, error);
 }
 
-/* A height below the resolution of single precision is no area. */
-static bool has_area(const double *const corner[3], double normal[3]) {
+bool scene_has_area(const double *const corner[3], double normal[3]) {
   double edge[3][3], longest = 0;
   for (int k = 0; k < 3; ++k) {
     vector_subtract(corner[(k + 1) % 3], corner[k], edge[k]);
@@ -147,7 +146,7 @@ static bool make_fan(const struct scene_faces *faces, const struct scene_corner 
   for (int k = 1; k < count - 1; ++k) {
     const double *corner[3] = {at(faces, &corners[0]), at(faces, &corners[k]),
                                at(faces, &corners[k + 1])};
-    if (!has_area(corner, own) || !(vector_dot(own, normal) > 0)) return false;
+    if (!scene_has_area(corner, own) || !(vector_dot(own, normal) > 0)) return false;
     vector_subtract(corner[2], corner[0], edge);
     vector_cross(first, edge, cross);
     if (!(vector_dot(cross, normal) > 0)) return false;
@@ -265,7 +264,7 @@ static int add_triangles(struct scene_faces *faces, const struct scene_corner *c
                                             &corners[faces->triangle[k][1]]};
     const double *position[3] = {at(faces, corner[0]), at(faces, corner[1]), at(faces, corner[2])};
     double normal[3];
-    if (!has_area(position, normal)) continue;
+    if (!scene_has_area(position, normal)) continue;
     size_t t = scene->triangles++;
     for (int c = 0; c < 3; ++c)
       scene->corners[t][c] = find_vertex(faces, corner[c], flat ? normal : NULL);

@@ -1,7 +1,6 @@
 /* scene_import.c - assimp's nodes and meshes as vertices and triangles, see scene_load.h. */
 #include <assimp/material.h>
 #include <assimp/scene.h>
-#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -106,18 +105,6 @@ static void add_vertex(struct scene *scene, const struct instance *instance, uns
   scene->uv[k][1] = uv ? (double)uv[vertex].y : 0;
 }
 
-/* A height below the resolution of the file's numbers is no area. */
-static bool has_area(double (*corner)[3], double normal[3]) {
-  double edge[3][3], longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    vector_subtract(corner[(k + 1) % 3], corner[k], edge[k]);
-    longest = fmax(longest, vector_length(edge[k]));
-  }
-  vector_cross(edge[0], edge[1], normal);
-  double area = vector_length(normal);
-  return area > FLT_EPSILON * longest * longest && vector_normalise(normal);
-}
-
 static enum result bad_triangle(const struct import *import, const struct instance *instance,
                                 unsigned face, const char *what, struct error *error) {
   return result_fail(error, RESULT_BAD, "%s: mesh '%s': triangle %u %s", import->loading->path,
@@ -146,7 +133,7 @@ static enum result add_triangle(struct import *import, const struct instance *in
       return bad_triangle(import, instance, face, "has texture coordinates that are not finite",
                           error);
   }
-  if (!has_area(corner, normal)) {
+  if (!scene_has_area((const double *const[]){corner[0], corner[1], corner[2]}, normal)) {
     ++import->loading->dropped;
     if (import->loading->repair) return RESULT_OK;
     return bad_triangle(import, instance, face, "has no area; --repair drops it", error);

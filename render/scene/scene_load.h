@@ -59,6 +59,10 @@ enum result scene_repair(struct scene_loading *loading, struct error *error);
 enum result scene_import_materials(struct scene_loading *loading, const struct aiScene *from,
                                    const bool *used, struct error *error);
 
+/* Has a triangle an area, and with it a unit normal by its corners? A height below the resolution
+ * of single precision is none. */
+bool scene_has_area(const double *const corner[3], double normal[3]);
+
 /* `name`, relative to the folder of `path`; the caller frees it. NULL without memory. */
 char *scene_beside(const char *path, const char *name);
 
