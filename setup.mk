@@ -6,12 +6,12 @@ SETS_UP := setup demo lamps figures tradeoff test bare stability bench lint sani
 
 # Where there is no Debian, pkg-config is asked for these.
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
-RENDER_USED := assimp libpng epoxy egl glfw3
+RENDER_USED := libpng epoxy egl glfw3
 IMAGE_USED := OpenImageIO
 
 PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc g++) libc6-dev make pkg-config \
   libtiff-dev libopenexr-dev libjansson-dev libxxhash-dev \
-  libcgal-dev libopenimageio-dev libembree-dev libassimp-dev libpng-dev libepoxy-dev libegl-dev libglfw3-dev
+  libcgal-dev libopenimageio-dev libembree-dev libpng-dev libepoxy-dev libegl-dev libglfw3-dev
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
 PACKAGES_lamps := povray povray-includes jq

@@ -13,7 +13,7 @@ fail() {
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   # shellcheck disable=SC2086
   pkg-config --exists $LIBRARIES 2>/dev/null ||
-    fail 'no apt here: install C and C++ compilers, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, CGAL, OpenImageIO, Embree 3, assimp, libpng, libepoxy, GLFW, POV-Ray 3.7 and oiiotool (make lamps: jq; tests: cmocka, GMP, bats, gnuplot, help2man, scdoc, tiffcp, groff, chromium, Xvfb, xdotool) by other means'
+    fail 'no apt here: install C and C++ compilers, pkg-config, libtiff, OpenEXR 3.1 or newer, jansson, xxhash, CGAL, OpenImageIO, Embree 3, libpng, libepoxy, GLFW, POV-Ray 3.7 and oiiotool (make lamps: jq; tests: cmocka, GMP, bats, gnuplot, help2man, scdoc, tiffcp, groff, chromium, Xvfb, xdotool) by other means'
   exit 0
 fi
 

@@ -7,7 +7,7 @@ FUZZ_NAMES := $(FUZZ_SOURCES:tests/fuzz/fuzz_%.c=%)
 FUZZ_SECONDS ?= 60
 TEST_NAMES += $(FUZZ_NAMES:%=fuzz/%)
 
-FUZZ_RENDER := faces mtl obj ply receivers words
+FUZZ_RENDER := faces gltf mtl obj ply receivers words
 fuzz_libs = $(if $(filter $(FUZZ_RENDER),$(1)),$(RENDER_LIBS)) $(ALL_LDLIBS)
 fuzz_tested = $(if $(filter $(FUZZ_RENDER),$(1)),$(B)/librender.a,$(B)/libbake.a) $(B)/libslab.a
 

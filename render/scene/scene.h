@@ -1,7 +1,7 @@
 /* scene.h - a mesh scene in POV-Ray's coordinates: left-handed, y up.
  *
- * OBJ+MTL (scene_obj.c, scene_mtl.h) and PLY (scene_ply.c) in double precision, glTF (.gltf, .glb)
- * by assimp; x and y are kept and z is mirrored, as is usual when such meshes are brought to
+ * OBJ+MTL (scene_obj.c, scene_mtl.h), PLY (scene_ply.c) and glTF 2.0 (.gltf, .glb; gltf.h) in
+ * double precision; x and y are kept and z is mirrored, as is usual when such meshes are brought to
  * POV-Ray. Triangles are wound so that edge01 x edge02, by components, points out where the file's
  * did. Node transforms are applied; faces of any shape are triangulated (scene_faces.h); lines and
  * points are left out.
@@ -15,11 +15,13 @@
  * reflectance there. PLY knows no materials: its surfaces are white, its colours unread.
  *
  * All surfaces are opaque and two-sided; illumination models, ambient colours and occlusion maps
- * are not read. Transparency, bump and normal maps, lights, PLY's and OBJ's colours of vertices are
- * ignored, and told in scene.ignored, as is emission, which is shown but lights nothing, and as are
- * statements of OBJ and MTL files that nobody knows. Anything
- * else that would change the picture is refused (or ignored, with `repair`): other textures than
- * those of the diffuse colour, options of map_Kd, extensions and vertex colours of glTF. */
+ * are not read. Transparency, bump and normal maps, lights, PLY's and OBJ's colours of vertices,
+ * statements of OBJ and MTL files that nobody knows and glTF's extensions, animations, other
+ * scenes, points and lines are ignored, and told in scene.ignored; so are glTF's textures that
+ * should end at their edges, and emission, which is shown but lights nothing. Anything else that
+ * would change the picture is refused (or ignored, with `repair`): other textures than those of the
+ * diffuse colour, options of map_Kd, extensions that a glTF file requires, its colours of vertices
+ * (unless they are white), textures that it has not. */
 #ifndef SCENE_H
 #define SCENE_H
 
@@ -63,6 +65,11 @@ enum scene_ignored {
   SCENE_EMISSION,
   SCENE_LIGHTS,
   SCENE_STATEMENTS, /* of OBJ and MTL files */
+  SCENE_EDGES,
+  SCENE_LINES,
+  SCENE_ANIMATIONS,
+  SCENE_OTHERS,
+  SCENE_EXTENSIONS,
   SCENE_IGNORED
 };
 

@@ -15,7 +15,12 @@ bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const 
       [SCENE_COLOURS] = "colours of vertices are ignored:",
       [SCENE_EMISSION] = "emission is shown but lights nothing:",
       [SCENE_LIGHTS] = "lights of the file are ignored:",
-      [SCENE_STATEMENTS] = "statements are ignored:"};
+      [SCENE_STATEMENTS] = "statements are ignored:",
+      [SCENE_EDGES] = "textures are repeated beyond their edges, not clamped or mirrored:",
+      [SCENE_LINES] = "points and lines are ignored:",
+      [SCENE_ANIMATIONS] = "animations are ignored:",
+      [SCENE_OTHERS] = "other scenes of the file are ignored:",
+      [SCENE_EXTENSIONS] = "extensions are ignored:"};
   char **there = &loading->scene->ignored[kind], *made, *quoted;
   if (asprintf(&quoted, " '%s'", name) < 0) return false;
   bool known = *there && strstr(*there, quoted);

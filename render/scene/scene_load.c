@@ -1,9 +1,6 @@
 /* scene_load.c - loads a scene from end to end (scene.h), and what that shares (scene_load.h). */
 #include "scene/scene_load.h"
 
-#include <assimp/cimport.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <errno.h>
 #include <float.h>
 #include <math.h>
@@ -56,30 +53,9 @@ static enum result find_format(struct scene_loading *loading, struct error *erro
                      loading->path);
 }
 
-static enum result import_gltf(struct scene_loading *loading, struct error *error) {
-  enum result result = RESULT_OK;
-  if (loading->needs == SCENE_SURFACES) result = scene_gltf_check(loading, error);
-  if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
-    result = scene_gltf_cameras(loading, error);
-  if (result != RESULT_OK) return result;
-  const struct aiScene *from = aiImportFile(loading->path, aiProcess_Triangulate);
-  bool *used = from ? calloc((size_t)from->mNumMaterials + 1, sizeof *used) : NULL;
-  if (!from)
-    result = result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: %s", loading->path,
-                         aiGetErrorString());
-  else if (!used)
-    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
-  if (result == RESULT_OK) result = scene_import_meshes(loading, from, used, error);
-  if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
-    result = scene_import_materials(loading, from, used, error);
-  free(used);
-  if (from) aiReleaseImport(from);
-  return result;
-}
-
 static enum result import(struct scene_loading *loading, struct error *error) {
   static enum result (*const readers[])(struct scene_loading *, struct error *) = {
-      [SCENE_OBJ] = scene_obj_read, [SCENE_GLTF] = import_gltf, [SCENE_PLY] = scene_ply_read};
+      [SCENE_OBJ] = scene_obj_read, [SCENE_GLTF] = gltf_load, [SCENE_PLY] = scene_ply_read};
   enum result result = readers[loading->format](loading, error);
   if (result == RESULT_OK && loading->scene->triangles == 0)
     result = result_fail(error, RESULT_BAD, "%s: has no triangles%s", loading->path,

@@ -1,7 +1,7 @@
 /* scene_load.h - what the files that load a scene share; scene.h is for everybody else.
  *
- * glTF is read by assimp; OBJ, MTL and PLY, which it reads in single precision and with losses,
- * by files of our own. */
+ * Each format is read by files of our own: OBJ and MTL by scene_obj.c and scene_mtl.c, PLY by
+ * scene_ply.c, glTF by gltf.c. */
 #ifndef SCENE_LOAD_H
 #define SCENE_LOAD_H
 
@@ -16,6 +16,7 @@ struct scene_loading {
   enum scene_needs needs;
   bool repair;
   struct scene *scene;
+  int room[5]; /* of the scene's arrays, for scene_build.c */
   /* what was repaired */
   size_t dropped;     /* triangles without area */
   size_t crossing;    /* faces that cross themselves, dropped */
@@ -35,29 +36,14 @@ bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const 
 /* The same for a statement; what is no word is not noted. */
 bool scene_ignore_statement(struct scene_loading *loading, const char *keyword);
 
-/* Reads the cameras of a glTF file. */
-enum result scene_gltf_cameras(struct scene_loading *loading, struct error *error);
-
-struct aiScene;
-
-/* Refuses extensions of glTF that we don't support. */
-enum result scene_gltf_check(struct scene_loading *loading, struct error *error);
-
-/* Read OBJ and PLY files into the scene. */
+/* Read files into the scene: triangles, materials, textures, cameras, and what is ignored. */
+enum result gltf_load(struct scene_loading *loading, struct error *error);
 enum result scene_obj_read(struct scene_loading *loading, struct error *error);
 enum result scene_ply_read(struct scene_loading *loading, struct error *error);
-
-/* Fills in vertices and triangles; *used[material] tells which materials they have. */
-enum result scene_import_meshes(struct scene_loading *loading, const struct aiScene *from,
-                                bool *used, struct error *error);
 
 /* Drops triangles that repeat another one: their corners are the same three points, in whatever
  * order. The first of them stays, and so does the order of the others. All must have an area. */
 enum result scene_repair(struct scene_loading *loading, struct error *error);
-
-/* Fills in those of the materials that are used, and their textures. */
-enum result scene_import_materials(struct scene_loading *loading, const struct aiScene *from,
-                                   const bool *used, struct error *error);
 
 /* Has a triangle an area, and with it a unit normal by its corners? A height below the resolution
  * of single precision is none. */

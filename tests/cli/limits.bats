@@ -73,7 +73,7 @@ ply() {
   done
   printf 'ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n' >nothing.ply
   refuses 1 'has no properties' -- starved "$RENDERSLAB" image nothing.ply "${view[@]}"
-  printf '{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4000000000000, "uri": "data:;base64,AAAA"}]}' >buffer.gltf
-  refuses 1 'buffer.gltf: cannot be read as a mesh' -- starved "$RENDERSLAB" image buffer.gltf "${view[@]}"
+  printf '{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4000000000000, "uri": "data:;base64,AAAA"}], "bufferViews": [{"buffer": 0, "byteLength": 4000000000000}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2000000000, "type": "VEC3"}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "materials": [{}], "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}]}' >buffer.gltf
+  refuses 1 'buffer 0: has 3 bytes, and should have 4000000000000' -- starved "$RENDERSLAB" image buffer.gltf "${view[@]}"
   [ ! -e x.exr ]
 }
