@@ -177,7 +177,10 @@ enum result gltf_material(struct gltf *gltf, const json_t *number, const char *m
   struct gltf_look *how = &gltf->looks[*material];
   const char *name = json_string_value(json_object_get(json, "name"));
   if (!how->read) {
-    snprintf(made->name, sizeof made->name, "%.127s", name ? name : "");
+    if (name)
+      snprintf(made->name, sizeof made->name, "%.127s", name);
+    else
+      snprintf(made->name, sizeof made->name, "%d", *material);
     result = read_material(gltf, json, made, how, error);
     how->read = true;
   }
