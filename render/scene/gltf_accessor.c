@@ -85,7 +85,7 @@ static enum result read_run(struct gltf *gltf, const json_t *owner, size_t count
   if (result == RESULT_OK) result = gltf_size(owner, "byteOffset", &offset, error);
   if (result != RESULT_OK) return result;
   run->stride = view.stride ? view.stride : size;
-  if (run->stride < size)
+  if (run->stride < size || run->stride == 0)
     return result_fail(error, RESULT_BAD, "has elements of %zu bytes, and byteStride %zu", size,
                        run->stride);
   if (offset > view.size || size > view.size - offset ||

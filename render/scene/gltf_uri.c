@@ -132,7 +132,7 @@ static char *find_file(const char *beside, const char *uri, const char *name) {
 enum result gltf_uri_path(const char *beside, const char *uri, char **path, struct error *error) {
   enum result result = RESULT_OK;
   struct stat status;
-  char *name = malloc(strlen(uri) + 1);
+  char *name = calloc(strlen(uri) + 1, 1);
   *path = NULL;
   if (!name) return result_no_memory(error);
   size_t length = decode_escapes(uri, name);
