@@ -67,7 +67,8 @@ static enum result read_library(struct obj *obj, const struct scene_line *line,
   struct error inner = {""};
   enum result result = scene_mtl_read(&obj->mtls, line->rest, &inner);
   if (result == RESULT_IO)
-    return result_fail(error, result, "%s:%zu: mtllib: %s", line->path, line->number, inner.text);
+    return result_fail(error, result, "%s:%zu: mtllib: %s; --repair makes its materials white",
+                       line->path, line->number, inner.text);
   return result == RESULT_OK ? result : result_fail(error, result, "%s", inner.text);
 }
 

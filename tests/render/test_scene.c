@@ -75,7 +75,8 @@ TEST(test_obj_refused) {
   } cases[] = {
       {MESHES_CORNERS "o bare\nf 1//1 2//1 3//1\n", "mesh 'bare' has no material", false,
        "materials made white: 1"},
-      {"mtllib no.mtl\n" MESHES_CORNERS "usemtl x\nf 1//1 2//1 3//1\n", "1: mtllib", false,
+      {"mtllib no.mtl\n" MESHES_CORNERS "usemtl x\nf 1//1 2//1 3//1\n",
+       "no.mtl: No such file or directory; --repair makes its materials white", false,
        "materials made white: 1"},
       {"mtllib k.mtl\n" MESHES_CORNERS "usemtl y\nf 1//1 2//1 3//1\n", "'y' is in none", false,
        "materials made white: 1"},
