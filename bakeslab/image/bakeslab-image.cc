@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "image/place.h"
-#include "image/says.h"
+#include "image/place.hh"
+#include "image/says.hh"
 
 using namespace OIIO;
 

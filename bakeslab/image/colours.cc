@@ -1,4 +1,4 @@
-#include "image/colours.h"
+#include "image/colours.hh"
 
 #include <algorithm>
 #include <cmath>

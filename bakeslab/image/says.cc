@@ -1,4 +1,4 @@
-#include "image/says.h"
+#include "image/says.hh"
 
 #include <strings.h>
 #include <tiffio.h>

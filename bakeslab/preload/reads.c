@@ -1,9 +1,9 @@
 /* reads.c - preloaded into POV-Ray. Where the environment variable CANNED_MATT is set, scripts come
  * without highlights and rainbows (matt.h). In a trial run it lists every file that POV-Ray opens,
  * one path a line, in the file that CANNED_READS names; those that it may write begin with >, a
- * line * says that a script had highlights, one & that a finish has a diffuse back side. POV-Ray has
- * no option for that, and file names in scripts may be computed, so that the script's text does not
- * show them. */
+ * line * says that a script had highlights, one & that a finish has a diffuse back side. POV-Ray
+ * has no option for that, and file names in scripts may be computed, so that the script's text does
+ * not show them. */
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>

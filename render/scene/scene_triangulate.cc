@@ -62,12 +62,13 @@ static std::vector<std::size_t> insertion_order(const std::vector<kernel::Point_
 static std::vector<vertex> insert_corners(plane &cdt, const double (*corners)[3], int count, int x,
                                           int y) {
   std::vector<kernel::Point_2> points;
+  points.reserve(std::size_t(count));
   for (int k = 0; k < count; ++k) points.emplace_back(corners[k][x], corners[k][y]);
   std::vector<vertex> at(points.size());
   plane::Face_handle near;
   for (const std::size_t k : insertion_order(points)) {
     const std::size_t before = cdt.number_of_vertices();
-    at[k] = cdt.insert(points[k], near);
+    at[k] = cdt.insert(points[k], near); // cppcheck-suppress containerOutOfBounds ; k < count
     if (cdt.number_of_vertices() > before) at[k]->info() = int(k);
     near = at[k]->face();
   }

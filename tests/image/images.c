@@ -238,5 +238,7 @@ struct image image_profile(const double columns[3][3], const struct image *curve
   while (profile.size < 128) image_big(&profile, 0, 1);
   image_put(&profile, table.bytes, table.size);
   image_put(&profile, body.bytes, body.size);
+  free(table.bytes);
+  free(body.bytes);
   return profile;
 }

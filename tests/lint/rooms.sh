@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # rooms.sh - holds the order of the rooms: no include that rooms.txt does not allow, no circle
-# of includes between files (x.c and x.h are one) or between folders. Quiet when clean.
+# of includes between files (x.c and x.h are one, x.cc and x.hh too) or between folders. Quiet when clean.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 shopt -s globstar nullglob
@@ -8,7 +8,7 @@ shopt -s globstar nullglob
 # A line an include: the file, and the header that it names, from the repository's root.
 includes() {
   local file header
-  grep -Ho '^#include "[^"]*"' {bakeslab,render}/**/*.{c,h,cc} | tr -d '"' |
+  grep -Ho '^#include "[^"]*"' {bakeslab,render}/**/*.{c,h,cc,hh} | tr -d '"' |
     while IFS=' ' read -r file header; do
       file=${file%%:*}
       for top in "${file%%/*}" bakeslab; do
@@ -33,6 +33,6 @@ circle() { # of the pairs on stdin
 all=$(includes)
 status=0
 forbidden <<<"$all" || status=1
-sed -E 's/\.(c|h|cc)\b//g' <<<"$all" | circle || status=1
+sed -E 's/\.(c|h|cc|hh)\b//g' <<<"$all" | circle || status=1
 sed -E 's,/[^/ ]*( |$),\1,g' <<<"$all" | circle || status=1
 exit "$status"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "image/bytes.h"
-#include "image/colours.h"
+#include "image/bytes.hh"
+#include "image/colours.hh"
 
 constexpr uint64_t says_most_pixels = 1 << 27; /* 16384 x 8192: 2 GB of memory at most */
 constexpr char says_too_large[] =
