@@ -1,4 +1,4 @@
-/* bytes.h - the bytes of an image file, for what it says of itself and OpenImageIO does not tell.
+/* bytes.hh - the bytes of an image file, for what it says of itself and OpenImageIO does not tell.
  * What lies beyond its end reads as nothing, and numbers there as 0. */
 #ifndef BYTES_H
 #define BYTES_H

@@ -1,4 +1,4 @@
-/* colours.h - how the numbers of an image become linear Rec. 709: a curve for each channel, then a
+/* colours.hh - how the numbers of an image become linear Rec. 709: a curve for each channel, then a
  * matrix. What cannot be is thrown as std::runtime_error, in words that follow the file's name. */
 #ifndef COLOURS_H
 #define COLOURS_H

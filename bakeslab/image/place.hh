@@ -1,4 +1,4 @@
-/* place.h - where the stored pixels of an image lie in the picture that it shows: the display
+/* place.hh - where the stored pixels of an image lie in the picture that it shows: the display
  * window of OpenEXR, then the orientation of EXIF (2.3, tag 274). */
 #ifndef PLACE_H
 #define PLACE_H
