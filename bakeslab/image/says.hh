@@ -1,5 +1,6 @@
-/* says.hh - what an image file says of itself in its own bytes and OpenImageIO 2.4 does not tell, or
- * tells wrong. Refusals are thrown as std::runtime_error, in words that follow the file's name. */
+/* says.hh - what an image file says of itself in its own bytes and OpenImageIO 2.4 does not tell,
+ * or tells wrong. Refusals are thrown as std::runtime_error, in words that follow the file's name.
+ */
 #ifndef SAYS_H
 #define SAYS_H
 
