@@ -31,7 +31,7 @@ shows() {
 stands() {
   local page=$1
   shift
-  sh "$ROOT/bakeslab/cli/man.sh" "$1" "$page" 1 | groff -man -Tascii -P-c -rLL=200n | col -bx >page.txt
+  sh "$ROOT/bakeslab/cli/man.sh" "$1" "$page" 1 | groff -man -Tascii -P-c -rLL=200n | sed 's/.\x08//g' >page.txt
   while IFS= read -r example; do
     grep -qF -- "$example" page.txt || { echo "$page.1 lacks $example"; return 1; }
   done < <("$@" --help | sed -n '/^Examples/,/^$/ s/^  //p')
