@@ -24,6 +24,7 @@ setup() { bake_setup; }
 }
 
 @test "the memory that --dry-run estimates is that of the bake, within a factor 2" {
+  needs ps
   plan=(bake flat.pov --uv 24 --st 64 --rays 4 --jobs 1 --uniform -o m.tif)
   estimate=$("$BAKESLAB" "${plan[@]}" --dry-run 2>&1 | sed -n 's/.*memory \([0-9.e+]*\) MB.*/\1/p')
   # The program's and POV-Ray's, which run at the same time; sampled, in kB.
