@@ -1,64 +1,26 @@
-/* housing.c - reads just enough of POV-Ray's language: comments, strings,
- * braces, directives and their #end. */
+/* housing.c - finds the housing's declaration in a script, and those that it needs. */
 #include "lamp/housing.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/files.h"
-
-/* The end of the comment that starts at `at`; they nest. NULL where it has none. */
-static const char *skip_comment(const char *at) {
-  int depth = 0;
-  do {
-    if (at[0] == '/' && at[1] == '*')
-      ++depth, at += 2;
-    else if (at[0] == '*' && at[1] == '/')
-      --depth, at += 2;
-    else if (!*at++)
-      return NULL;
-  } while (depth > 0);
-  return at;
-}
-
-/* The end of the string that starts at `at`; NULL where it has none. */
-static const char *skip_string(const char *at) {
-  for (++at; *at && *at != '"'; ++at)
-    if (*at == '\\' && at[1]) ++at;
-  return *at ? at + 1 : NULL;
-}
-
-/* The end of the comment or string that starts at `at`, or `at` where none does. One without an
- * end goes on to that of the text. */
-static const char *skip_quiet(const char *at) {
-  const char *end = at;
-  if (at[0] == '/' && at[1] == '/') return at + strcspn(at, "\n");
-  if (at[0] == '/' && at[1] == '*') end = skip_comment(at);
-  if (at[0] == '"') end = skip_string(at);
-  return end ? end : at + strlen(at);
-}
+#include "base/sdl_scan.h"
 
 /* The next character from `at` on that is in no comment or string. */
 static const char *next_code(const char *at) {
-  for (const char *after; (after = skip_quiet(at)) != at;) at = after;
+  for (const char *after; (after = sdl_skip_quiet(at)) != at;) at = after;
   return at;
 }
 
 static const char *skip_blanks(const char *at) {
   for (;;) {
     const char *after = at + strspn(at, " \t\r\n");
-    if (*after == '/') after = skip_quiet(after);
+    if (*after == '/') after = sdl_skip_quiet(after);
     if (after == at) return at;
     at = after;
   }
-}
-
-static size_t name_length(const char *at) {
-  size_t n = 0;
-  while (isalnum((unsigned char)at[n]) || at[n] == '_') ++n;
-  return n;
 }
 
 /* The end of a value: after the ; of an expression, or after the brace that closes the
@@ -85,20 +47,10 @@ struct directive {
 
 static struct directive directive_at(const char *at) {
   struct directive directive = {.word = skip_blanks(at)};
-  directive.length = name_length(directive.word);
+  directive.length = sdl_word_length(directive.word);
   return directive;
 }
 
-static bool is_one_of(struct directive directive, const char *const *words) {
-  for (; *words; ++words)
-    if (strlen(*words) == directive.length && !memcmp(*words, directive.word, directive.length))
-      return true;
-  return false;
-}
-
-static const char *const openers[] = {"if",    "ifdef", "ifndef", "for",
-                                      "while", "macro", "switch", NULL};
-static const char *const closers[] = {"end", NULL};
 static const char *const declarers[] = {"declare", "local", NULL};
 
 /* #declare NAME = VALUE */
@@ -122,7 +74,7 @@ static const char *add_declaration(struct script *script, struct directive direc
   struct declaration found = {.name = skip_blanks(directive.word + directive.length),
                               .conditional = conditional,
                               .global = directive.word[0] == 'd'};
-  found.name_length = name_length(found.name);
+  found.name_length = sdl_word_length(found.name);
   const char *at = skip_blanks(found.name + found.name_length);
   if (*at != '=' || !found.name_length) return at;
   bool has_braces;
@@ -143,9 +95,8 @@ static bool read_script(const char *at, struct script *script) {
   while (at && *(at = next_code(at))) {
     if (*at++ != '#') continue;
     struct directive directive = directive_at(at);
-    if (is_one_of(directive, openers)) ++depth;
-    if (is_one_of(directive, closers)) --depth;
-    if (is_one_of(directive, declarers))
+    depth += sdl_block(directive.word, directive.length);
+    if (sdl_is_one_of(directive.word, directive.length, declarers))
       at = add_declaration(script, directive, depth > 0);
     else
       at = directive.word + directive.length;
@@ -157,7 +108,7 @@ static bool read_script(const char *at, struct script *script) {
 static bool mentions(const struct declaration *in, const struct declaration *name) {
   const char *at = next_code(in->value);
   while (at < in->value + in->value_length) {
-    size_t length = name_length(at);
+    size_t length = sdl_word_length(at);
     if (length == name->name_length && !memcmp(at, name->name, length)) return true;
     at = next_code(at + (length ? length : 1));
   }
@@ -237,9 +188,9 @@ bool housing_is_harmless(const char *text) {
   int braces = 0, blocks = 0;
   if (!is_plain_text(text)) return false;
   for (const char *at = text; *at;) {
-    if ((*at == '"' && !skip_string(at)) || (!strncmp(at, "/*", 2) && !skip_comment(at)))
+    if ((*at == '"' && !sdl_skip_string(at)) || (!strncmp(at, "/*", 2) && !sdl_skip_comment(at)))
       return false;
-    const char *after = skip_quiet(at);
+    const char *after = sdl_skip_quiet(at);
     if (after != at) {
       at = after;
       continue;
@@ -248,9 +199,9 @@ bool housing_is_harmless(const char *text) {
     if (*at == '}' && --braces < 0) return false;
     if (*at == '#') {
       struct directive directive = directive_at(at + 1);
-      if (!is_one_of(directive, allowed)) return false;
-      if (is_one_of(directive, openers)) ++blocks;
-      if (is_one_of(directive, closers) && --blocks < 0) return false;
+      if (!sdl_is_one_of(directive.word, directive.length, allowed)) return false;
+      blocks += sdl_block(directive.word, directive.length);
+      if (blocks < 0) return false;
     }
     ++at;
   }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/files.h"
+#include "base/sdl_scan.h"
 
 /* The mean light of the lamp with a change of the scene. */
 static enum result try_change(const struct lamp_trial *trial, const char *change, double *mean,
@@ -20,29 +21,6 @@ static enum result try_change(const struct lamp_trial *trial, const char *change
 
 /* ---- Words of the script ---- */
 
-/* The text after a comment or string that starts at `at`, or `at`. Comments nest. */
-static const char *after_quiet(const char *at) {
-  if (!strncmp(at, "//", 2)) return at + strcspn(at, "\n");
-  if (*at == '"') {
-    for (++at; *at && *at != '"'; ++at)
-      if (*at == '\\' && at[1]) ++at;
-    return *at ? at + 1 : at;
-  }
-  int depth = 0;
-  do {
-    bool opens = !strncmp(at, "/*", 2), closes = depth > 0 && !strncmp(at, "*/", 2);
-    depth += opens - closes;
-    at += opens || closes ? 2 : depth > 0;
-  } while (depth > 0 && *at);
-  return at;
-}
-
-static size_t word_length(const char *at) {
-  size_t n = 0;
-  while (isalnum((unsigned char)at[n]) || at[n] == '_') ++n;
-  return n;
-}
-
 /* Whether the word has an effect: `ambient 0` and `emission 0` have none. */
 static bool means_it(const char *word, const char *after) {
   if (strcmp(word, "ambient") != 0 && strcmp(word, "emission") != 0) return true;
@@ -52,8 +30,8 @@ static bool means_it(const char *word, const char *after) {
 
 static bool has_word(const char *text, const char *word) {
   for (const char *at = text; *at;) {
-    const char *after = after_quiet(at);
-    size_t length = word_length(at);
+    const char *after = sdl_skip_quiet(at);
+    size_t length = sdl_word_length(at);
     if (after == at && length == strlen(word) && !strncmp(at, word, length) &&
         means_it(word, at + length))
       return true;

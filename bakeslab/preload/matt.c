@@ -2,11 +2,12 @@
  * #macro, #if or their like cut in two is left alone. */
 #include "preload/matt.h"
 
-#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
+
+#include "base/sdl_scan.h"
 
 enum { MOST_TEXT = 1 << 26 };
 
@@ -17,49 +18,19 @@ static const struct {
                  {"rainbow", " color_map { [0 rgbt 1] [1 rgbt 1] } "}};
 enum { ADDITIONS = sizeof additions / sizeof *additions };
 
-/* The end of a comment or a string that begins at `at`, or `at`. */
-static const char *skip_inert(const char *at) {
-  int depth = 0;
-  if (*at == '"') {
-    for (++at; *at && *at != '"'; ++at)
-      if (*at == '\\' && at[1]) ++at;
-    return *at ? at + 1 : at;
-  }
-  if (at[0] == '/' && at[1] == '/') return at + strcspn(at, "\n");
-  if (at[0] != '/' || at[1] != '*') return at;
-  do {
-    int opens = at[0] == '/' && at[1] == '*', closes = at[0] == '*' && at[1] == '/';
-    depth += opens - closes;
-    at += opens || closes ? 2 : 1;
-  } while (depth > 0 && *at);
-  return at;
-}
-
-static size_t word_length(const char *at) {
-  size_t n = 0;
-  while (isalnum((unsigned char)at[n]) || at[n] == '_') ++n;
-  return n;
-}
-
-static int is_one_of(const char *word, size_t length, const char *const *list) {
-  for (; *list; ++list)
-    if (strlen(*list) == length && !strncmp(word, *list, length)) return 1;
-  return 0;
-}
-
 /* A number that is zero, and no sum or product that begins with it. */
 static int is_zero(const char *at) {
   char *end;
   if (strtod(at, &end) != 0 || end == at) return 0;
   end += strspn(end, " \t\r\n");
-  return *end == 0 || !strchr("+-*/", *end) || skip_inert(end) != end;
+  return *end == 0 || !strchr("+-*/", *end) || sdl_skip_quiet(end) != end;
 }
 
 /* Behind the word `diffuse`: whether a second number follows, which is not zero. No other item of a
  * finish has a comma outside of brackets. */
 static int is_translucent(const char *at) {
   for (int depth = 0; *at && depth >= 0;) {
-    const char *rest = skip_inert(at);
+    const char *rest = sdl_skip_quiet(at);
     if (rest == at && depth == 0 && *at == ',') return !is_zero(at + 1);
     if (rest == at) depth += (strchr("({[<", *at) != NULL) - (strchr(")}]>", *at) != NULL);
     at = rest != at ? rest : at + 1;
@@ -69,13 +40,10 @@ static int is_translucent(const char *at) {
 
 /* The brace that closes the one at `open`, or NULL. */
 static const char *closing_brace(const char *open, int *found) {
-  static const char *const begin[] = {"if",  "ifdef",  "ifndef", "while",
-                                      "for", "switch", "macro",  0},
-                           *const end[] = {"end", 0}, *const shiny[] = {"specular", "phong", 0},
-                           *const diffuse[] = {"diffuse", 0};
+  static const char *const shiny[] = {"specular", "phong", 0}, *const diffuse[] = {"diffuse", 0};
   int depth = 0, blocks = 0, has = 0;
   for (const char *at = open; *at;) {
-    const char *rest = skip_inert(at);
+    const char *rest = sdl_skip_quiet(at);
     if (rest != at) {
       at = rest;
       continue;
@@ -85,10 +53,11 @@ static const char *closing_brace(const char *open, int *found) {
     if (depth == 0) return blocks == 0 ? at : NULL;
     int directive = *at == '#';
     if (directive) at += 1 + strspn(at + 1, " \t");
-    size_t length = word_length(at);
-    if (directive) blocks += is_one_of(at, length, begin) - is_one_of(at, length, end);
-    if (!directive && is_one_of(at, length, shiny) && !is_zero(at + length)) has |= MATT_HIGHLIGHTS;
-    if (!directive && is_one_of(at, length, diffuse) && is_translucent(at + length))
+    size_t length = sdl_word_length(at);
+    if (directive) blocks += sdl_block(at, length);
+    if (!directive && sdl_is_one_of(at, length, shiny) && !is_zero(at + length))
+      has |= MATT_HIGHLIGHTS;
+    if (!directive && sdl_is_one_of(at, length, diffuse) && is_translucent(at + length))
       has |= MATT_TRANSLUCENT;
     at += length ? length : !directive;
   }
@@ -113,8 +82,8 @@ static int has_any(const char *text) {
 static void rewrite(const char *text, FILE *out, int *found) {
   const char *written = text, *at = text;
   while (*at) {
-    const char *rest = skip_inert(at);
-    size_t length = word_length(at);
+    const char *rest = sdl_skip_quiet(at);
+    size_t length = sdl_word_length(at);
     if (rest != at || length == 0) {
       at = rest != at ? rest : at + 1;
       continue;

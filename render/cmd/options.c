@@ -57,13 +57,11 @@ static error_t parse_lights(int key, char *value, struct argp_state *state) {
 static const struct argp_option light_options[] = {
     {"light", OPTION_LIGHT, "LIGHT", 0,
      "'FILE [at=X,Y,Z] [toward=X,Y,Z] [up=X,Y,Z] [matrix=12 numbers] [scale=S] [gain=G|R,G,B]': a "
-     "slab "
-     "and where it is; may be repeated",
+     "slab and where it is; may be repeated",
      0},
     {"repair", OPTION_REPAIR, NULL, 0,
      "Mend the mesh: drop repeated triangles, those without area and faces that cross themselves, "
-     "make "
-     "up normals and materials, do without textures that cannot be read",
+     "make up normals and materials, do without textures that cannot be read",
      0},
     {0}};
 
