@@ -37,7 +37,9 @@ static const struct argp_option options_list[] = {
     {"output", 'o', "OUT.exr|png", 0,
      "The picture: radiance in float RGB, or 8-bit sRGB as a PNG; - is EXR on standard output", 0},
     {"samples", OPTION_SAMPLES, "N", 0,
-     "N x N rays a pixel, on a regular grid (default 1, through its middle)", 0},
+     "N x N rays a pixel, on a regular grid, where neighbouring pixels differ by more than "
+     "--tolerance allows; one, through its middle, elsewhere (default 1). Method gl: everywhere",
+     0},
     {"preview", OPTION_PREVIEW, "FILE.png", 0, "Write an 8-bit sRGB picture too", 0},
     {"exposure", OPTION_EXPOSURE, "X", 0,
      "Radiance that is white in a PNG (default: 99 % of the pixels are at most 0.9 of it)", 0},
@@ -96,7 +98,7 @@ static enum result check_method(const struct world *world, struct error *error) 
 }
 
 /* Receivers for which it may pay to build trees, at some 0.2 us a sample: where time is limited,
- * only if that is less than half of it. */
+ * only if that is less than half of it. Where pixels may want more rays, about as many again. */
 static uint64_t count_receivers(const struct arguments *arguments) {
   const struct world *world = &arguments->world;
   const int *size = world->view.size, samples = arguments->samples;
@@ -105,7 +107,7 @@ static uint64_t count_receivers(const struct arguments *arguments) {
     for (int page = 0; page < world->lights[l].count; ++page)
       seconds += 2e-7 * (double)slab_sample_count(&world->lights[l].pages[page].slab);
   if (arguments->time_limit > 0 && seconds > arguments->time_limit / 2) return 0;
-  return (uint64_t)size[0] * (uint64_t)size[1] * (uint64_t)(samples * samples);
+  return (uint64_t)size[0] * (uint64_t)size[1] * (samples > 1 ? 2 : 1);
 }
 
 static enum result load(struct arguments *arguments, struct error *error) {

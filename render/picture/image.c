@@ -1,11 +1,13 @@
 #include "picture/image.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/progress.h"
 #include "picture/image_part.h"
+#include "picture/refine.h"
 
 /* Of the first pass where time is limited, and how many rays that has. */
 static const double coarsest_tolerance = 0.3;
@@ -28,9 +30,10 @@ struct place {
   int number;
 };
 
-/* One pass over the picture: a ray for step x step pixels, or samples^2 for each. */
+/* One pass over the picture: a ray for step x step pixels, or more where pixels want them. */
 struct pass {
-  int step, samples;
+  int step;
+  bool refines;
   int columns, count; /* of its tiles, which are IMAGE_TILE x step pixels wide */
   double until;       /* it must end, where time is limited */
   bool first;         /* it is finished even if it is late */
@@ -44,6 +47,8 @@ struct image {
   struct picture *picture;
   struct gather **gathers;  /* [threads] */
   struct image_part *parts; /* [threads]: a tile each */
+  struct refine refine;     /* where there are to be more rays than one a pixel */
+  struct refine_rays *rays; /* [threads] */
   int columns, rows;        /* of tiles */
   struct tile *tiles;       /* [columns x rows] */
   struct place *order;      /* the same number, of which a pass of larger steps needs fewer */
@@ -68,16 +73,16 @@ static bool time_is_over(const struct image *image) {
   return image->settings->until && progress_now() >= image->pass.until;
 }
 
-/* Gathers for the part's receivers; *late, and nothing is of use, where time is over before. */
-static enum result gather_part(const struct image *image, struct image_part *part, int count,
-                               int worker, bool *late, struct error *error) {
+/* Gathers for the receivers; *late, and nothing is of use, where time is over before. */
+static enum result gather(const struct image *image, const struct receiver *receivers, int count,
+                          int worker, struct gathered *gathered, bool *late, struct error *error) {
   enum result result = RESULT_OK;
   int chunk = image->pass.chunk;
   for (int k = 0; k < count && result == RESULT_OK; k += chunk) {
     *late = !image->pass.first && time_is_over(image);
     if (*late) break;
-    result = gather_light(image->gathers[worker], part->receivers + k,
-                          count - k < chunk ? count - k : chunk, part->gathered + k, error);
+    result = gather_light(image->gathers[worker], receivers + k,
+                          count - k < chunk ? count - k : chunk, gathered + k, error);
   }
   return result;
 }
@@ -91,32 +96,71 @@ static void note_tile(const struct image *image, int number, const struct tile *
       image->tiles[(size_t)y * (size_t)image->columns + (size_t)x] = *tile;
 }
 
-static enum result do_tile(void *context, int index, int worker, struct error *error) {
-  const struct image *image = context;
-  const struct image_settings *settings = image->settings;
+/* One ray for each pixel of the part. */
+static enum result do_tile(struct image *image, int number, int worker, struct error *error) {
   const struct pass *pass = &image->pass;
   struct image_part *part = &image->parts[worker];
-  int number = image->order[index].number, samples = pass->samples * pass->samples;
   struct tile tile = {.step = pass->step, .tolerance = pass->gather.tolerance};
-  bool late = !pass->first && time_is_over(image);
-  if (late) return RESULT_OK;
+  bool late = false;
   set_part(image, number, part);
   image_part_clear(part);
-  for (int sample = 0; sample < samples; ++sample) {
-    image_part_trace(&settings->shade, pass->samples, sample, 0, part->width * part->height, part);
-    int count = image_part_receivers(part);
-    enum result result = gather_part(image, part, count, worker, &late, error);
-    if (result != RESULT_OK || late) return result;
-    tile.relative_error = fmax(tile.relative_error, image_part_add(part));
-  }
-  tile.error = image_part_store(part, samples, image->picture);
+  image_part_trace(&image->settings->shade, 1, 0, 0, part->width * part->height, part);
+  int count = image_part_receivers(part);
+  enum result result = gather(image, part->receivers, count, worker, part->gathered, &late, error);
+  if (result != RESULT_OK || late) return result;
+  tile.relative_error = image_part_add(part);
+  tile.error = image_part_store(part, 1, image->picture);
+  if (image->refine.seen && pass->step == 1) refine_note(&image->refine, part);
   note_tile(image, number, &tile);
   return RESULT_OK;
+}
+
+/* More rays for the pixels in `rays`, in two rounds of gathering. */
+static enum result refine_pixels(struct image *image, int worker, bool *late, struct error *error) {
+  struct refine_rays *rays = &image->rays[worker];
+  enum result result = RESULT_OK;
+  refine_trace(&image->refine, rays);
+  for (int round = 0; round < 2 && result == RESULT_OK && !*late; ++round) {
+    refine_ask(&image->refine, round == 0, rays);
+    result = gather(image, rays->receivers, rays->asked, worker, rays->gathered, late, error);
+    if (result == RESULT_OK && !*late) refine_take(rays);
+  }
+  return result;
+}
+
+/* More rays where pixels of the tile want them. */
+static enum result refine_tile(struct image *image, int number, int worker, struct error *error) {
+  struct image_part *part = &image->parts[worker];
+  struct refine_rays *rays = &image->rays[worker];
+  struct tile *tile = &image->tiles[number];
+  enum result result = RESULT_OK;
+  bool late = false;
+  set_part(image, number, part);
+  int pixels = part->width * part->height;
+  for (int next = 0; next < pixels && result == RESULT_OK && !late;) {
+    for (rays->count = 0; next < pixels && rays->count < rays->most; ++next) {
+      int x = part->left + next % part->width, y = part->top + next / part->width;
+      if (refine_wants(&image->refine, x, y))
+        rays->pixels[rays->count++] = y * image->picture->width + x;
+    }
+    result = refine_pixels(image, worker, &late, error);
+    if (result == RESULT_OK && !late)
+      tile->relative_error = fmax(tile->relative_error, refine_store(rays, image->picture));
+  }
+  return result;
+}
+
+static enum result do_piece(void *context, int index, int worker, struct error *error) {
+  struct image *image = context;
+  int number = image->order[index].number;
+  if (!image->pass.first && time_is_over(image)) return RESULT_OK;
+  return (image->pass.refines ? refine_tile : do_tile)(image, number, worker, error);
 }
 
 static void show_progress(void *context, double done) {
   const struct image *image = context;
   const struct image_settings *settings = image->settings;
+  if (image->refine.seen) done = (image->pass.refines + done) / 2;
   if (settings->progress) settings->progress(settings->progress_context, done);
 }
 
@@ -143,7 +187,7 @@ static enum result run_pass(struct image *image, struct image_report *report, st
   set_order(image);
   enum result result = gather_create_all(&image->pass.gather, settings->threads, gathers, error);
   if (result == RESULT_OK)
-    result = tiles_run(settings->threads, image->pass.count, do_tile, show_progress, image, error);
+    result = tiles_run(settings->threads, image->pass.count, do_piece, show_progress, image, error);
   gather_free_all(gathers, settings->threads, &report->counts);
   ++report->passes;
   return result;
@@ -181,7 +225,7 @@ static void set_tolerance(struct image *image, double tolerance) {
   coarsen_shadows(gather);
 }
 
-/* The first pass: all there is to do, where time does not matter. */
+/* The first pass: a ray for each pixel, where time does not matter. */
 static void set_first(struct image *image) {
   const struct image_settings *settings = image->settings;
   const struct picture *picture = image->picture;
@@ -189,33 +233,47 @@ static void set_first(struct image *image) {
   bool dial = gather_methods[settings->gather.method].dial == METHOD_BY_TOLERANCE;
   image->pass =
       (struct pass){.step = limited ? image_first_step(picture->width, picture->height) : 1,
-                    .samples = limited ? 1 : settings->samples,
                     .first = true,
-                    .chunk = IMAGE_TILE * IMAGE_TILE};
+                    .chunk = INT_MAX};
   set_tolerance(image, limited && dial ? coarsest_tolerance : 0);
   set_end(image);
 }
 
-/* The next pass, after one that took so many seconds; false where all is done. More rays, as many
- * at once as surely find the time; then all rays of a pixel; then smaller tolerances. */
+/* Of a pass in which pixels share rays, after one that took so many seconds: more rays, as many
+ * at once as surely find the time. */
+static void set_step(struct image *image, double seconds) {
+  struct pass *pass = &image->pass;
+  double each = seconds / rays_of(image->picture, pass->step), left = pass->until - progress_now();
+  pass->chunk = (int)fmin(fmax(glance / (each * image->settings->threads), 1), INT_MAX);
+  if (pass->step == 1) return;
+  pass->step /= 2;
+  while (pass->step > 1 && 2 * each * rays_of(image->picture, pass->step / 2) < left)
+    pass->step /= 2;
+}
+
+/* The mean over N x N receivers has edges of shadows N times as fine as each of them. */
+static void set_refine(struct image *image) {
+  struct gather_settings *gather = &image->pass.gather;
+  int edge = gather->shadow_edge / image->settings->samples;
+  image->pass.refines = true;
+  gather->shadow_edge = edge > gather->shadow_grid ? edge : gather->shadow_grid;
+}
+
+/* The next pass, after one that took so many seconds; false where all is done: a ray for each
+ * pixel; then smaller tolerances; then more rays where pixels want them. */
 static bool set_next(struct image *image, double seconds) {
   const struct image_settings *settings = image->settings;
   struct pass *pass = &image->pass;
-  double rays = rays_of(image->picture, pass->step) * pass->samples * pass->samples;
-  double each = seconds / rays, left = pass->until - progress_now();
-  double tolerance = pass->gather.tolerance;
-  pass->first = false;
-  pass->chunk = (int)fmin(fmax(glance / (each * settings->threads), 1), IMAGE_TILE * IMAGE_TILE);
-  if (pass->step > 1) {
-    pass->step /= 2;
-    while (pass->step > 1 && 2 * each * rays_of(image->picture, pass->step / 2) < left)
-      pass->step /= 2;
-  } else if (pass->samples < settings->samples) {
-    pass->samples = settings->samples;
-  } else if (tolerance > settings->gather.tolerance) {
-    set_tolerance(image, tolerance / 10);
-  } else {
-    return false;
+  bool shared = pass->step > 1;
+  pass->first = settings->until == NULL;
+  if (settings->until) set_step(image, seconds);
+  if (!shared) {
+    if (pass->gather.tolerance > settings->gather.tolerance)
+      set_tolerance(image, pass->gather.tolerance / 10);
+    else if (image->refine.seen && !pass->refines)
+      set_refine(image);
+    else
+      return false;
   }
   set_end(image);
   return true;
@@ -229,8 +287,7 @@ static enum result run_passes(struct image *image, struct image_report *report,
     start = progress_now();
     enum result result = run_pass(image, report, error);
     if (result != RESULT_OK) return result;
-  } while (image->settings->until && set_next(image, progress_now() - start) &&
-           !time_is_over(image));
+  } while (set_next(image, progress_now() - start) && !time_is_over(image));
   return RESULT_OK;
 }
 
@@ -247,6 +304,40 @@ static void sum_up(const struct image *image, struct image_report *report) {
   report->counts.error = report->worst_step > 1 ? INFINITY : report->error;
 }
 
+static enum result create(struct image *image, struct error *error) {
+  const struct image_settings *settings = image->settings;
+  size_t tiles = (size_t)image->columns * (size_t)image->rows, threads = (size_t)settings->threads;
+  enum result result = RESULT_OK;
+  image->gathers = calloc(threads, sizeof *image->gathers);
+  image->parts = calloc(threads, sizeof *image->parts);
+  image->rays = calloc(threads, sizeof *image->rays);
+  image->tiles = calloc(tiles, sizeof *image->tiles);
+  image->order = calloc(tiles, sizeof *image->order);
+  if (!image->gathers || !image->parts || !image->rays || !image->tiles || !image->order)
+    result = result_no_memory(error);
+  for (size_t k = 0; result == RESULT_OK && k < threads; ++k)
+    result = image_part_create(IMAGE_TILE * IMAGE_TILE, &image->parts[k], error);
+  if (settings->samples == 1) return result;
+  if (result == RESULT_OK)
+    result = refine_create(&settings->shade, settings->gather.tolerance, &image->refine, error);
+  for (size_t k = 0; result == RESULT_OK && k < threads; ++k)
+    result = refine_rays_create(settings->samples, IMAGE_TILE * IMAGE_TILE, &image->rays[k], error);
+  return result;
+}
+
+static void destroy(struct image *image) {
+  for (int k = 0; image->parts && k < image->settings->threads; ++k)
+    image_part_free(&image->parts[k]);
+  for (int k = 0; image->rays && k < image->settings->threads; ++k)
+    refine_rays_free(&image->rays[k]);
+  refine_free(&image->refine);
+  free(image->gathers);
+  free(image->parts);
+  free(image->rays);
+  free(image->tiles);
+  free(image->order);
+}
+
 /* By the CPU: tile by tile. */
 static enum result render_tiles(const struct image_settings *settings, struct picture *picture,
                                 struct image_report *report, struct error *error) {
@@ -254,23 +345,10 @@ static enum result render_tiles(const struct image_settings *settings, struct pi
                         .picture = picture,
                         .columns = divide_up(picture->width, IMAGE_TILE),
                         .rows = divide_up(picture->height, IMAGE_TILE)};
-  size_t tiles = (size_t)image.columns * (size_t)image.rows;
-  enum result result = RESULT_OK;
-  image.gathers = calloc((size_t)settings->threads, sizeof *image.gathers);
-  image.parts = calloc((size_t)settings->threads, sizeof *image.parts);
-  image.tiles = calloc(tiles, sizeof *image.tiles);
-  image.order = calloc(tiles, sizeof *image.order);
-  if (!image.gathers || !image.parts || !image.tiles || !image.order)
-    result = result_no_memory(error);
-  for (int k = 0; result == RESULT_OK && k < settings->threads; ++k)
-    result = image_part_create(IMAGE_TILE * IMAGE_TILE, &image.parts[k], error);
+  enum result result = create(&image, error);
   if (result == RESULT_OK) result = run_passes(&image, report, error);
   if (result == RESULT_OK) sum_up(&image, report);
-  for (int k = 0; image.parts && k < settings->threads; ++k) image_part_free(&image.parts[k]);
-  free(image.gathers);
-  free(image.parts);
-  free(image.tiles);
-  free(image.order);
+  destroy(&image);
   return result;
 }
 

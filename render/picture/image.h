@@ -1,6 +1,8 @@
-/* image.h - a picture of the scene: what comes along N x N rays a pixel, averaged.
+/* image.h - a picture of the scene: what comes along a ray through each pixel's middle, or, where
+ * a pixel wants them (refine.h), along N x N rays on a regular grid, averaged.
  *
- * Rays stand on a regular grid in the pixel (one: in its middle). Tiles of 8 x 8 pixels are
+ * The mean over N x N receivers has edges of shadows N times as fine as each of them, so that
+ * these are looked at N times as coarsely. Tiles of 8 x 8 pixels are
  * independent pieces of work, so the same picture comes out whatever the threads. */
 #ifndef IMAGE_H
 #define IMAGE_H
@@ -20,7 +22,7 @@ struct image_settings {
   struct shade shade; /* sizes: 1..NUMBERS_MOST_SIZE */
   struct gather_settings gather;
   const struct gl_sum_settings *gl; /* for the method gl, which takes the place of `gather` */
-  int samples;                      /* N, 1..IMAGE_MOST_SAMPLES */
+  int samples;                      /* N, 1..IMAGE_MOST_SAMPLES; method gl: N x N everywhere */
   int threads;                      /* >= 1 */
   tiles_progress *progress;         /* may be NULL */
   void *progress_context;
@@ -45,10 +47,10 @@ int image_first_step(int width, int height);
 /* Allocates and fills the picture and its errors; picture_free frees it.
  *
  * With a time to end, the whole picture is first made with a few hundred rays and a tolerance of
- * 0.3, then with ever more rays, one a pixel and then all; then tile by tile, those with the
- * largest errors first, with a tenth of that tolerance, and so on until the time is over or the
- * tolerance asked for is reached everywhere. The first pass is always finished. Edges of shadows
- * follow: to about half the tolerance of a pass. */
+ * 0.3, then with ever more rays, up to one a pixel; then tile by tile, those with the largest
+ * errors first, with a tenth of that tolerance, and so on until the time is over or the tolerance
+ * asked for is reached everywhere; then with more rays where pixels want them. The first pass is
+ * always finished. Edges of shadows follow: to about half the tolerance of a pass. */
 enum result image_render(const struct image_settings *settings, struct picture *picture,
                          struct image_report *report, struct error *error);
 

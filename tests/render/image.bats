@@ -10,6 +10,9 @@ picture() {
     --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' -q -o "$out" "$@"
 }
 
+# count NAME STATS: a number of the statistics.
+count() { sed -n "s/.*\"$1\": \([0-9]*\).*/\1/p" "$2"; }
+
 @test "the letter falls on the floor the right way round" {
   # One view whose rays meet the floor, 1 below, at (s, t): s to the right, t away from an eye
   # above, so that the raster's first row is the picture's last. The lamp's back is transparent.
@@ -70,11 +73,36 @@ picture() {
 }
 
 @test "samples are the means of a finer picture" {
-  picture fine.exr --size 80x60
-  picture coarse.exr --samples 2
+  # A lamp without edges in its light.
+  "$BAKESLAB" convert letter_f.tif -o smooth.tif --st 2x2 -q
+  for out in fine.exr coarse.exr; do
+    more='--size 80x60'
+    [ "$out" = fine.exr ] || more='--size 40x30 --samples 2'
+    # shellcheck disable=SC2086
+    "$RENDERSLAB" image occluder.obj --light 'smooth.tif at=0,1,0' $more --no-shadows -q \
+      --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' -o "$out" --tolerance 1e-9
+  done
   oiiotool fine.exr --resize:filter=box 40x30 -d float -o means.exr
   error=$(relative coarse.exr means.exr)
+  echo "# $error %"
   below "$error" 1e-4
+}
+
+@test "samples are taken where pixels differ, and nearly suffice for all" {
+  picture fine.exr --size 480x360
+  oiiotool fine.exr --resize:filter=box 120x90 -d float -o means.exr
+  picture one.exr --size 120x90 --stats one.json
+  picture four.exr --size 120x90 --samples 4 --stats four.json
+  few=$(relative one.exr means.exr)
+  more=$(relative four.exr means.exr)
+  gathered=$(count receivers one.json)
+  again=$(count receivers four.json)
+  echo "# error: $few %, $more %; receivers: $gathered, $again"
+  awk -v few="$few" -v more="$more" 'BEGIN { exit !(more < few/5) }'
+  [ "$again" -gt "$gathered" ]
+  [ "$again" -lt $((4 * gathered)) ]
+  picture threads.exr --size 120x90 --samples 4 --threads 7
+  idiff -fail 0 -warn 0 four.exr threads.exr
 }
 
 @test "no shadows: the floor is as bright as if nothing stood on it" {
@@ -267,7 +295,6 @@ rejects() { harmless "$1" "$RENDERSLAB" image "${@:2}"; }
   picture auto.exr --stats auto.json
   picture all.exr --effects all --stats all.json
   oiiotool auto.exr all.exr --diff
-  count() { sed -n "s/.*\"$1\": \([0-9]*\).*/\1/p" "$2"; }
   [ "$(count open_views auto.json)" -gt 0 ]
   [ "$(count open_views all.json)" -eq 0 ]
   [ "$(count shadow_rays auto.json)" -lt "$(count shadow_rays all.json)" ]
