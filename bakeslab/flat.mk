@@ -56,7 +56,7 @@ $(B)/man/%.5: bakeslab/file/%.5.scd
 
 # Found by the program relative to itself, built or installed alike.
 READS := $(B)/lib/canned/reads.so
-$(READS): bakeslab/preload/reads.c bakeslab/preload/matt.c bakeslab/preload/matt.h bakeslab/base/sdl_scan.c bakeslab/base/sdl_scan.h | $(B)/flags
+$(READS): bakeslab/preload/reads.c bakeslab/preload/polls.c bakeslab/preload/matt.c bakeslab/preload/matt.h bakeslab/base/sdl_scan.c bakeslab/base/sdl_scan.h | $(B)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$@)
 	$(Q)$(CC) -O2 -D_GNU_SOURCE $(WARN) -Ibakeslab -fPIC -shared $(filter %.c,$^) -ldl -o $@

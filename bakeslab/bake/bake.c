@@ -243,7 +243,7 @@ static enum result find_housing(const struct bake_work *work, struct bake_report
   else if (errno == ENOMEM)
     result = result_no_memory(error);
   if (*housing && result == RESULT_OK)
-    result = housing_parses(work->povray, *housing, scratch, error);
+    result = housing_parses(work->povray, work->source, *housing, scratch, error);
   if (result == RESULT_BAD) {
     warnings_add(&report->warnings,
                  "Canned_Housing is left out of the slab, since it does not parse with only the "

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A POV-Ray process is idle for 0.4 s whatever it renders: batches take a few seconds, those of a
+/* A POV-Ray process costs 0.1 s whatever it renders: batches take a few seconds, those of a
  * round cost about the same, and their number is a multiple of BATCH_EVEN, so that a few processes
  * end together. Costs are in rays; a camera costs some too, since POV-Ray finds a mesh
  * camera's face by a linear search through the meshes. */

@@ -14,9 +14,9 @@
 #include "base/files.h"
 #include "povray/povray_log.h"
 
-/* A POV-Ray process is idle for some 0.2 s before its first pixel and after its last one: the next
+/* A POV-Ray process is idle for some 0.05 s before its first pixel and after its last one: the next
  * may start when one has no more than these seconds left to render. */
-static const double overlap = 0.4;
+static const double overlap = 0.1;
 
 enum process_state { IDLE, RENDERING, CLOSING };
 

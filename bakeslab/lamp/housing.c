@@ -208,9 +208,13 @@ bool housing_is_harmless(const char *text) {
   return braces == 0 && blocks == 0;
 }
 
-enum result housing_parses(const struct povray *povray, const char *housing, const char *directory,
-                           struct error *error) {
-  struct povray_job job = {.directory = directory, .width = 4, .height = 4, .frames = 1};
+enum result housing_parses(const struct povray *povray, const struct lamp_source *source,
+                           const char *housing, const char *directory, struct error *error) {
+  struct povray_job job = {.directory = directory,
+                           .width = 4,
+                           .height = 4,
+                           .frames = 1,
+                           .environment = lamp_without_highlights};
   char *scene = NULL;
   if (asprintf(&scene,
                "#version 3.7;\n#macro Housing()\n%s\n#end\nobject { Housing() }\n"
@@ -218,7 +222,7 @@ enum result housing_parses(const struct povray *povray, const char *housing, con
                housing) < 0)
     return result_no_memory(error);
   files_remove_tree(directory);
-  enum result result = files_make_directory(directory, error);
+  enum result result = lamp_source_link(source, directory, error);
   if (result == RESULT_OK) result = files_write(directory, "scene.pov", scene, error);
   if (result == RESULT_OK) result = povray_run(povray, &job, error);
   /* A picture that cannot be written is no fault of the text. */

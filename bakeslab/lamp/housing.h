@@ -20,7 +20,7 @@ bool housing_is_harmless(const char *text);
 
 /* RESULT_BAD: the text does not parse by itself. Renders a tiny scene in `directory`, which is made
  * and removed. */
-enum result housing_parses(const struct povray *povray, const char *housing, const char *directory,
-                           struct error *error);
+enum result housing_parses(const struct povray *povray, const struct lamp_source *source,
+                           const char *housing, const char *directory, struct error *error);
 
 #endif
