@@ -1,4 +1,5 @@
 /* cmd_convert.c - bakeslab convert: other container, precision, resolution; sharpening. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +8,7 @@
 #include "file/slab_file.h"
 #include "file/slab_json.h"
 #include "slab/slab_resample.h"
-#include "slab/slab_sharpen.h"
+#include "slab/slab_sharpen_gain.h"
 
 struct options {
   const char *input, *output;
@@ -33,7 +34,8 @@ static const struct argp_option options_list[] = {
      0},
     {"sharpen", KEY(sharpen), "st", 0,
      "The only value is st: after all else, sharpen along s and t, so that the interpolated "
-     "radiance keeps the means over cells that the samples are",
+     "radiance keeps the means over cells that the samples are; but no page that would become "
+     "worse",
      0},
     {"positive", KEY(positive), NULL, 0,
      "With --sharpen, no sample becomes negative, as always in LogLuv; include needs it", 0},
@@ -105,20 +107,45 @@ static enum result check_sharpening(const struct options *options, const struct 
   return RESULT_OK;
 }
 
+static enum slab_sharpening how_to_sharpen(const struct options *options) {
+  enum slab_precision precision = slab_file_precision_of(options->output, options->precision);
+  return options->positive || precision == SLAB_PRECISION_LOGLUV ? SLAB_SHARPEN_POSITIVE
+                                                                 : SLAB_SHARPEN_EXACT;
+}
+
+/* Whether sharpening pays, which is told. The bake's noise is not that of other samples. */
+static enum result judge_sharpening(const struct options *options, int page,
+                                    const struct slab *slab, bool changed, bool *pays,
+                                    struct error *error) {
+  struct slab_sampling sampling = {0};
+  double gain = NAN;
+  enum result result = slab_json_sampling(slab, &sampling, error);
+  if (changed) sampling.sample_noise = sampling.flux_noise = NAN;
+  if (result == RESULT_OK)
+    result = slab_sharpen_gain(slab, &sampling, how_to_sharpen(options), &gain, error);
+  *pays = gain <= slab_sharpen_pays;
+  if (result != RESULT_OK) return result;
+  if (isnan(gain))
+    cli_note("%s: page %d: note: not sharpened: too few samples, or no blur, to judge it by",
+             options->input, page + 1);
+  else
+    cli_note("%s: page %d: note: %s: its error %s some %.2g times what it %s", options->input,
+             page + 1, *pays ? "sharpened" : "not sharpened", *pays ? "is" : "would be", gain,
+             *pays ? "was" : "is");
+  return RESULT_OK;
+}
+
 static enum result sharpen_page(const struct options *options, struct slab *slab,
                                 struct error *error) {
-  enum slab_precision precision = slab_file_precision_of(options->output, options->precision);
-  enum slab_sharpening how = options->positive || precision == SLAB_PRECISION_LOGLUV
-                                 ? SLAB_SHARPEN_POSITIVE
-                                 : SLAB_SHARPEN_EXACT;
+  enum slab_sharpening how = how_to_sharpen(options);
   enum result result = slab_sharpen(slab, how, error);
   return result == RESULT_OK ? slab_json_record_sharpening(slab, how, error) : result;
 }
 
-static enum result convert_page(const struct options *options, struct slab *slab,
+static enum result convert_page(const struct options *options, int page, struct slab *slab,
                                 struct error *error) {
   int first[SLAB_AXES], end[SLAB_AXES], samples[SLAB_AXES];
-  bool crop = false, resample = false, resample_st = false;
+  bool crop = false, resample = false, resample_st = false, sharpen = options->sharpen;
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     first[axis] = options->end[axis] ? options->first[axis] : 0;
     end[axis] = options->end[axis] ? options->end[axis] : slab->samples[axis];
@@ -137,10 +164,12 @@ static enum result convert_page(const struct options *options, struct slab *slab
     result = slab_resample(slab, samples, &other, error);
     if (result == RESULT_OK) replace(slab, &other);
   }
+  if (result == RESULT_OK && sharpen)
+    result = judge_sharpening(options, page, slab, crop || resample, &sharpen, error);
   if (result == RESULT_OK)
     result = slab_json_record(slab, cli_command_line(), "bakeslab " CANNED_VERSION,
-                              crop || resample || options->sharpen, error);
-  if (result == RESULT_OK && options->sharpen) result = sharpen_page(options, slab, error);
+                              crop || resample || sharpen, error);
+  if (result == RESULT_OK && sharpen) result = sharpen_page(options, slab, error);
   return result;
 }
 
@@ -150,7 +179,7 @@ static enum result run(void *input, struct error *error) {
   int count = 0;
   enum result result = slab_file_load_all(options->input, &slabs, &count, error);
   for (int page = 0; page < count && result == RESULT_OK; ++page) {
-    result = convert_page(options, &slabs[page], error);
+    result = convert_page(options, page, &slabs[page], error);
     result_at(result, error, "%s: page %d", options->input, page + 1);
   }
   if (result == RESULT_OK)
@@ -169,9 +198,10 @@ static const char doc[] =
     "no sample becomes negative, and means beside edges are kept less exactly. "
     "Sharpening helps where light is smooth from sample to sample (a fourth of the error "
     "of irradiance, or much less) or has peaks a few cells wide (a fifth to two thirds). "
-    "It does not where edges move by cells from view to view, as behind fine bars (1.2 "
-    "to 1.6 times the error for the paper's lamp), and it amplifies noise: bake with 64 "
-    "rays or more. Compare bakeslab check --error of both slabs."
+    "It does not where edges move by cells from view to view, as behind fine bars, and it "
+    "amplifies noise. So each page is judged by what sharpening does to a coarser copy of it, and "
+    "stays as it is where the error would not become smaller; both are told. Compare bakeslab "
+    "check --error of both slabs."
     "\vExamples:\n"
     "  bakeslab convert lamp.tif -o lamp.exr\n"
     "  bakeslab convert lamp.tif -o small.tif --uv 8x8 --st 32x32\n"

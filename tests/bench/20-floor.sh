@@ -64,7 +64,7 @@ done
 row "flux of the default bake against $flux W of the lamp, in %" "${flow[adaptive16]}" '+-0.5' \
   "$(holds "${flow[adaptive16]} <= 0.5 && ${flow[adaptive16]} >= -0.5")"
 
-heading "Sharpened along s and t (convert --sharpen st): errors before and after, in %"
+heading "Sharpened along s and t where that pays (convert --sharpen st): errors before and after, in %"
 printf '  %-38s %10s %10s %10s %10s\n' '' floor after flux after
 "$TOOLS/floor" ideal truth.bin exact.exr >/dev/null
 for name in exact adaptive16 adaptive64; do

@@ -9,41 +9,59 @@ setup() {
   # one view of 8 x 1: an edge
   black="$zero$zero$zero" white="$one$one$one" means=', "name": "edge", "samples_are": "cell_means"'
   raw_slab edge.tif '[1, 1, 8, 1]' 8 1 "$means" "$black$black$black$black$white$white$white$white"
+  # and of 16 x 1: a peak, in quarters
+  profile=(0 0 0 0 1 2 3 4 4 3 2 1 0 0 0 0)
+  quarters=("$zero" 3e800000 3f000000 3f400000 "$one") samples=
+  for k in "${profile[@]}"; do samples+=${quarters[k]}${quarters[k]}${quarters[k]}; done
+  raw_slab peak.tif '[1, 1, 16, 1]' 16 1 "$means" "$samples"
 }
 
 lookup() { "$BAKESLAB" lookup "$1" <<<"0 0 0 $2 -1 0" | cut -d' ' -f1; }
 near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <= t) }'; }
 
 @test "--sharpen st: cell means, and no more of anything" {
-  "$BAKESLAB" convert edge.tif -o sharp.exr --sharpen st
-  for cell in 0 1 2 3 4 5 6 7; do
-    middle=$(awk -v k="$cell" 'BEGIN { print -1 + (k + 0.5)/4 }')
+  "$BAKESLAB" convert peak.tif -o sharp.exr --sharpen st
+  for cell in "${!profile[@]}"; do
+    middle=$(awk -v k="$cell" 'BEGIN { print -1 + (k + 0.5)/8 }')
     mean=0
-    for step in -0.0625 0.0625; do
+    for step in -0.03125 0.03125; do
       radiance=$(lookup sharp.exr "$(awk -v m="$middle" -v s="$step" 'BEGIN { print m + s }')")
       mean=$(awk -v m="$mean" -v r="$radiance" 'BEGIN { printf "%.9g", m + r/2 }')
     done
-    near "$mean" "$(awk -v k="$cell" 'BEGIN { print (k > 3) }')" 1e-6
+    near "$mean" "$(awk -v quarters="${profile[cell]}" 'BEGIN { print quarters/4 }')" 1e-6
   done
   run --separate-stderr "$BAKESLAB" info sharp.exr
-  [[ $output == *"lowest"*"-0.2071"* ]]
+  [[ $output == *"lowest"*"-0.04416"* ]]
   [[ $output == *"samples are"*"cell_means"* ]]
   [[ $output == *"sharpened"*"st"* ]]
-  [[ $output == *"bakeslab convert edge.tif -o sharp.exr --sharpen st"* ]]
+  [[ $output == *"bakeslab convert peak.tif -o sharp.exr --sharpen st"* ]]
 }
 
 @test "--sharpen st: never negative in LogLuv, nor with --positive" {
-  "$BAKESLAB" convert edge.tif -o sharp.tif --sharpen st
-  "$BAKESLAB" convert edge.tif -o - --sharpen st >piped.tif
-  "$BAKESLAB" convert edge.tif -o sharp.exr --sharpen st --positive
+  "$BAKESLAB" convert peak.tif -o sharp.tif --sharpen st
+  "$BAKESLAB" convert peak.tif -o - --sharpen st >piped.tif
+  "$BAKESLAB" convert peak.tif -o sharp.exr --sharpen st --positive
   for file in sharp.tif piped.tif sharp.exr; do
     lowest=$("$BAKESLAB" info "$file" | awk '$1 == "lowest" { print $2 }')
     near "$lowest" 0 0
     "$BAKESLAB" info "$file" | grep -q 'sharpened .*st, not below zero'
   done
   "$BAKESLAB" include sharp.exr -o out.inc
-  "$BAKESLAB" convert edge.tif -o negative.exr --sharpen st
+  "$BAKESLAB" convert peak.tif -o negative.exr --sharpen st
   refuses 1 "negative" -- "$BAKESLAB" include negative.exr -o out2.inc
+}
+
+@test "--sharpen st: pages that it would make worse stay as they are, and that is told" {
+  # An edge between two cells, whose means are those of points.
+  run -0 --separate-stderr "$BAKESLAB" convert edge.tif -o same.exr --sharpen st
+  [[ $stderr == "bakeslab: edge.tif: page 1: note: not sharpened: its error would be some "*" times what it is" ]]
+  run -0 --separate-stderr "$BAKESLAB" diff --tolerance 0 edge.tif same.exr
+  run ! grep -q sharpened <("$BAKESLAB" info same.exr | grep -v command)
+  run -0 --separate-stderr "$BAKESLAB" convert peak.tif -o sharp.exr --sharpen st
+  [[ $stderr == "bakeslab: peak.tif: page 1: note: sharpened: its error is some 0."*" times what it was" ]]
+  raw_slab few.tif '[1, 1, 3, 1]' 3 1 "$means" "$black$white$black"
+  run -0 --separate-stderr "$BAKESLAB" convert few.tif -o same.exr --sharpen st
+  [[ $stderr == *"page 1: note: not sharpened: too few samples"* ]]
 }
 
 @test "--sharpen st: a constant slab keeps its samples, 1-wide axes too" {
@@ -57,7 +75,7 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
 @test "--sharpen refuses points, and what is sharpened already" {
   raw_slab points.tif '[1, 1, 8, 1]' 8 1 ', "samples_are": "points"' "$one" "$one" "$one"
   refuses 1 "points.tif: page 1: its samples are points" -- "$BAKESLAB" convert points.tif -o x.exr --sharpen st
-  "$BAKESLAB" convert edge.tif -o sharp.exr --sharpen st
+  "$BAKESLAB" convert peak.tif -o sharp.exr --sharpen st
   refuses 1 "sharp.exr: page 1: is sharpened already" -- "$BAKESLAB" convert sharp.exr -o x.exr --sharpen st
   refuses 1 "sharp.exr: page 1: is sharpened" "--st" -- "$BAKESLAB" convert sharp.exr -o x.exr --st 4x1
   [ ! -e x.exr ]
@@ -65,8 +83,8 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
   "$BAKESLAB" convert sharp.exr -o copy.tif --precision float --uv 2x1
   refuses 1 "copy.tif: page 1: is sharpened already" -- "$BAKESLAB" convert copy.tif -o x.exr --sharpen st
   # resampling comes first
-  "$BAKESLAB" convert edge.tif -o fewer.exr --st 4x1 --sharpen st
-  near "$(lookup fewer.exr -0.75)" 0 0.05
+  "$BAKESLAB" convert peak.tif -o fewer.exr --st 8x1 --sharpen st
+  near "$(lookup fewer.exr 0)" 0.97 0.05
   # a slab that does not say how it was sampled is taken at its word
   raw_slab silent.tif '[1, 1, 8, 1]' 8 1 '' "$black$white"
   "$BAKESLAB" convert silent.tif -o silent.exr --sharpen st

@@ -12,7 +12,7 @@
 #include "oracle/random.h"
 #include "slab/plane.h"
 #include "slab/slab_accuracy.h"
-#include "slab/slab_sharpen.h"
+#include "slab/slab_sharpen_gain.h"
 
 enum {
   RECEIVERS = 24,   /* along a side */
@@ -162,6 +162,38 @@ TEST(test_sharpened) {
   assert_true(after.all < before.all / 5);
   assert_true(after.all > truth / 2 && after.all < truth * 2);
   slab_free(&slab);
+}
+
+/* A thin beam whose directions spread over the aperture: its blurs along s and u cancel in part. */
+static double spread(double a, double b, double s, double t) {
+  return fabs(s - 0.3 * a) < 0.05 && fabs(t - 0.3 * b) < 0.05 ? 1 : 0;
+}
+
+/* The largest of the true errors of a sharpened slab over those of the slab itself; *gain is what
+ * was to be expected. */
+static double sharpen_truly(radiance *lamp, double *gain) {
+  struct slab slab = slab_of(lamp, 8, 32);
+  struct slab_sampling sampling = sampling_of(&slab);
+  struct error error = {{0}};
+  double before[SLAB_ACCURACY_DISTANCES], worst = 0;
+  assert_ok(slab_sharpen_gain(&slab, &sampling, SLAB_SHARPEN_EXACT, gain, &error), &error);
+  for (int n = 0; n < SLAB_ACCURACY_DISTANCES; ++n)
+    before[n] = true_error(lamp, NULL, &slab, slab_accuracy_apertures[n]);
+  assert_ok(slab_sharpen(&slab, SLAB_SHARPEN_EXACT, &error), &error);
+  for (int n = 0; n < SLAB_ACCURACY_DISTANCES; ++n)
+    worst = fmax(worst, true_error(lamp, NULL, &slab, slab_accuracy_apertures[n]) / before[n]);
+  print_message("# sharpened: %.2g times the error expected, %.2g true\n", *gain, worst);
+  slab_free(&slab);
+  return worst;
+}
+
+/* What is smooth becomes better by it; what would become worse is known beforehand. */
+TEST(test_sharpening_that_pays) {
+  double gain;
+  assert_true(sharpen_truly(lobe, &gain) < 0.5);
+  assert_true(gain < slab_sharpen_pays);
+  assert_true(sharpen_truly(spread, &gain) > 1);
+  assert_true(gain > slab_sharpen_pays);
 }
 
 /* Noise of known size, independent from sample to sample; and some that all share. */
