@@ -248,7 +248,7 @@ static bool share(double tolerance, const struct places *places, double x, doubl
                         c < 3 ? &light->irradiance[c] : &light->gloss[c - 3]));
   }
   light->error = error + (brightest > 0 ? off / brightest : 0);
-  return off <= 2 * tolerance * brightest;
+  return off <= 3 * tolerance * brightest;
 }
 
 /* How far the sample lies from its pixel's middle. */

@@ -7,8 +7,9 @@
  *    of the nine.
  * 3. N x N rays are traced there. What one of them meets takes its light from those of the nine
  *    middles that are on the same surface, by the least-squares plane over the picture, if planes
- *    through all but one of them predict that one to within twice the tolerance. Else the rays in
- * the pixel's corners gather, and the others take theirs from these and the middle, or gather too.
+ *    through all but one of them predict that one to within three times the tolerance. Else the
+ * rays in the pixel's corners gather, and the others take theirs from these and the middle, or
+ * gather too.
  *
  * So silhouettes and textures cost camera rays, and only edges of shadows are gathered anew. What
  * is narrower than a pixel and was missed by all nine middles stays missed. */
