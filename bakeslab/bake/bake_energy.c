@@ -185,9 +185,21 @@ static void add_plane(const struct planes *planes, const struct slab *slab, int 
   }
 }
 
-/* The box around all pages, in lamp space; false where they span none. */
+/* How far a page reaches from another one's plane. */
+static double off_plane(const struct slab *other, const struct slab *page) {
+  double along[3] = {0};
+  for (int c = 0; c < 3; ++c) {
+    along[0] += other->normal[c] * (page->center[c] - other->center[c]);
+    along[1] += other->normal[c] * page->u[c];
+    along[2] += other->normal[c] * page->v[c];
+  }
+  return fabs(along[0]) + (fabs(along[1]) + fabs(along[2])) / 2;
+}
+
+/* The box around all pages, in lamp space; false where they lie in one plane: that goes through
+ * the lamp, and so would sides of a box around it. */
 static bool find_box(const struct planes *planes, double box[2][3]) {
-  double least = INFINITY, most = 0;
+  double thick = 0, least = INFINITY, most = 0;
   for (int c = 0; c < 3; ++c) {
     box[0][c] = INFINITY;
     box[1][c] = -INFINITY;
@@ -200,7 +212,9 @@ static bool find_box(const struct planes *planes, double box[2][3]) {
     least = fmin(least, box[1][c] - box[0][c]);
     most = fmax(most, box[1][c] - box[0][c]);
   }
-  return least > 0.05 * most;
+  for (int n = 0; n < planes->count; ++n)
+    thick = fmax(thick, off_plane(&planes->pages[0], &planes->pages[n]));
+  return fmin(thick, least) > 0.05 * most;
 }
 
 /* The sides of the box that have no page in their plane, half the box further out and twice as

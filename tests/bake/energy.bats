@@ -55,6 +55,16 @@ cube='Canned_Needs("")
   [[ $status -eq 0 && $output != *"the pages miss"* ]]
 }
 
+@test "an opening that is tilted: what is inside the lamp is not missed" {
+  lamp can.pov '#declare Tilt_ = 25*z; Canned_Needs("interreflection")
+    Canned_Slab(0, vrotate(2*x, Tilt_), 2*z, vrotate(-y, Tilt_), <-9, 9, -9, 9>, 0)
+    union { cone { 0, 1, 2*y, 0.4 open } disc { 2*y, y, 0.4 } rotate Tilt_
+      pigment { rgb 0.8 } finish { diffuse 1 } }
+    Canned_Bulb(vrotate(y, Tilt_), 0.3, 5)'
+  run bake can.pov -q -o x.exr --uv 4 --st 16 --rays 4
+  [[ $status -eq 0 && $output != *"the pages miss"* ]] || { echo "$output"; return 1; }
+}
+
 @test "a glowing disc: Lambert's law says how much a window lets through" {
   lamp disc.pov 'Canned_Needs("") Canned_Metres_Per_Unit(0.5) Canned_Radiance_Unit("W/(sr m2)")
     Canned_Slab(0, 2*x, 2*y, z, <-1, 1, -1, 1>, 0)
