@@ -61,7 +61,8 @@ static const char doc[] =
     "IMAGE is PNG, JPEG, TIFF, EXR, Radiance's HDR, GIF, BMP, WebP, PNM, PFM or TGA. Its colours "
     "become linear Rec. 709 as it says itself, by a colour profile, say; where it says nothing, "
     "floating-point files are linear, others sRGB. It is turned as EXIF says, and EXR is shown "
-    "within its display window. What cannot be right (CMYK, profiles made of tables, transparent "
+    "within its display window. Of several pictures in a file the first is read. What cannot be "
+    "right (CMYK, profiles made of tables, transparent "
     "pixels, pixels that are not square) is refused. The lamp's name in POV-Ray is that of the "
     "output, if it is an identifier.\n"
     "\n"
@@ -138,6 +139,8 @@ static enum result read_image(const char *path, struct picture *image, struct er
                          "%s: says that its pixels are %.4g times as wide as high; resize it so "
                          "that they are square",
                          path, says.pixel_aspect);
+  else if (says.several)
+    cli_note("%s: note: only the first picture of the file is read", path);
   if (result != RESULT_OK) picture_free(image);
   return result;
 }

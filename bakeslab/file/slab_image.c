@@ -19,13 +19,14 @@ static const char LETTERS[] = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLM
 /* Reads what the program writes; where that breaks off, the program's own words say why. */
 static enum result take(FILE *from, struct picture *picture, struct slab_image_says *says,
                         struct error *error) {
-  int transparent = 0;
+  int transparent = 0, several = 0;
   result_fail(error, RESULT_IO, "%s broke off", PROGRAM);
-  if (fscanf(from, "%d %d %d %lf", &picture->width, &picture->height, &transparent,
-             &says->pixel_aspect) != 4 ||
+  if (fscanf(from, "%d %d %d %d %lf", &picture->width, &picture->height, &transparent, &several,
+             &says->pixel_aspect) != 5 ||
       getc(from) != '\n')
     return RESULT_IO;
   says->transparent = transparent;
+  says->several = several;
   size_t count = (size_t)picture->width * (size_t)picture->height, pixel = 3 * sizeof(float);
   picture->rgb = calloc(count, pixel);
   if (!picture->rgb)

@@ -18,6 +18,7 @@ enum slab_image_colours {
 /* What else an image says of itself. */
 struct slab_image_says {
   bool transparent;    /* is alpha below 1 anywhere? */
+  bool several;        /* are there other pictures in the file, which are not read? */
   double pixel_aspect; /* a pixel's width by its height */
 };
 

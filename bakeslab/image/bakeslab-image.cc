@@ -1,7 +1,8 @@
 /* bakeslab-image.cc - reads the image on standard input, which must be a file, by OpenImageIO,
  * and writes it as linear Rec. 709: a line
- *   WIDTH HEIGHT TRANSPARENT ASPECT
- * (TRANSPARENT: 1 where an alpha is below 1, else 0; ASPECT: a pixel's width by its height) and
+ *   WIDTH HEIGHT TRANSPARENT SEVERAL ASPECT
+ * (TRANSPARENT: 1 where an alpha is below 1, else 0; SEVERAL: 1 where the file has other pictures,
+ * which are not read, else 0; ASPECT: a pixel's width by its height) and
  * then this machine's floats, rows downwards. file/slab_image.h says what is read how; the
  * arguments are the suffix and the colours that it names. What is wrong is one line on standard
  * error, and the exit status 1.
@@ -187,11 +188,12 @@ static void copy_image(const char *suffix, bool own) {
   bool transparent = false;
   for (size_t k = 0; k < pixels && alpha >= 0; ++k)
     transparent = transparent || !(picture.stored[k * step + size_t(alpha)] >= 1);
+  const bool several = in->seek_subimage(1, 0);
   double aspect = double(spec.get_float_attribute("PixelAspectRatio", 1));
   if (picture.place.turned()) aspect = 1 / aspect;
   if (says.pixel_aspect > 0) aspect = says.pixel_aspect;
-  std::printf("%d %d %d %.9g\n", picture.place.shown_width(), picture.place.shown_height(),
-              transparent, aspect);
+  std::printf("%d %d %d %d %.9g\n", picture.place.shown_width(), picture.place.shown_height(),
+              transparent, several, aspect);
   std::vector<float> rgb(3 * size_t(picture.place.shown_width()));
   for (int row = 0; row < picture.place.shown_height(); ++row) write_row(picture, row, rgb);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))

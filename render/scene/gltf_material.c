@@ -7,6 +7,8 @@
 #include "base/vector.h"
 #include "scene/gltf.h"
 
+enum { MOST_MATERIALS = 1 << 20 };
+
 /* A surface as glTF describes it, by either of its models. */
 struct paint {
   double base[4];    /* colour and alpha */
@@ -82,12 +84,13 @@ static void set_emission(struct scene_material *material, const json_t *json) {
 }
 
 /* With alphaMode OPAQUE alpha means nothing. */
-static bool is_transparent(const json_t *json, const struct paint *paint) {
+static bool is_transparent(const json_t *json, const struct paint *paint,
+                           const struct scene_texture *texture) {
   const char *mode = json_string_value(json_object_get(json, "alphaMode"));
   const json_t *transmission = gltf_extension(json, "KHR_materials_transmission");
   bool blends = mode && (strcmp(mode, "BLEND") == 0 || strcmp(mode, "MASK") == 0);
   return gltf_number(transmission, "transmissionFactor", 0) > 0 ||
-         (blends && (paint->base[3] < 1 || paint->texture));
+         (blends && (paint->base[3] < 1 || (texture && texture->transparent)));
 }
 
 static enum result check_textures(struct gltf *gltf, const json_t *json, const struct paint *paint,
@@ -130,8 +133,11 @@ static enum result read_material(struct gltf *gltf, const json_t *json,
   if (result == RESULT_OK && paint.texture)
     result = result_at(gltf_texture(gltf, paint.texture, &material->texture, look, error), error,
                        "material '%s'", material->name);
+  int number = material->texture;
+  const struct scene_texture *texture = number < 0 ? NULL : &gltf->loading->scene->textures[number];
   if (result == RESULT_OK)
-    result = ignore(gltf, SCENE_TRANSPARENCY, is_transparent(json, &paint), material->name, error);
+    result = ignore(gltf, SCENE_TRANSPARENCY, is_transparent(json, &paint, texture), material->name,
+                    error);
   if (result == RESULT_OK)
     result = ignore(gltf, SCENE_BUMPS, json_object_get(json, "normalTexture") != NULL,
                     material->name, error);
@@ -144,7 +150,9 @@ static enum result read_material(struct gltf *gltf, const json_t *json,
 enum result gltf_materials(struct gltf *gltf, struct error *error) {
   struct scene *scene = gltf->loading->scene;
   size_t count = json_array_size(json_object_get(gltf->root, "materials")) + 1;
-  if (count > INT_MAX) return result_fail(error, RESULT_BAD, "has %zu materials", count - 1);
+  if (count > MOST_MATERIALS)
+    return result_fail(error, RESULT_BAD, "has %zu materials, and less than %d are read", count - 1,
+                       MOST_MATERIALS);
   scene->materials = calloc(count, sizeof *scene->materials);
   gltf->looks = calloc(count, sizeof *gltf->looks);
   if (!scene->materials || !gltf->looks) return result_no_memory(error);

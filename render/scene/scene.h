@@ -17,11 +17,12 @@
  * All surfaces are opaque and two-sided; illumination models, ambient colours and occlusion maps
  * are not read. Transparency, bump and normal maps, lights, PLY's and OBJ's colours of vertices,
  * statements of OBJ and MTL files that nobody knows and glTF's extensions, animations, other
- * scenes, points and lines are ignored, and told in scene.ignored; so are glTF's textures that
- * should end at their edges, and emission, which is shown but lights nothing. Anything else that
- * would change the picture is refused (or ignored, with `repair`): other textures than those of the
- * diffuse colour, options of map_Kd, extensions that a glTF file requires, its colours of vertices
- * (unless they are white), textures that it has not. */
+ * scenes, points and lines and the pictures of a texture's file but the first are ignored, and told
+ * in scene.ignored; so are glTF's textures that should end at their edges, and emission, which is
+ * shown but lights nothing. Anything else that would change the picture is refused (or ignored,
+ * with `repair`): other textures than those of the diffuse colour, options of map_Kd, extensions
+ * that a glTF file requires, its colours of vertices (unless they are white), textures that it has
+ * not. */
 #ifndef SCENE_H
 #define SCENE_H
 
@@ -44,6 +45,7 @@ struct scene_material {
 struct scene_texture {
   char *path;             /* as the mesh names it, made relative to its folder; owned.
                              "FILE: image N" for those within a glTF file */
+  bool transparent;       /* is its alpha below 1 anywhere? */
   struct picture picture; /* linear RGB, row 0 at the top; owned */
 };
 
@@ -61,6 +63,7 @@ struct scene_camera {
 enum scene_ignored {
   SCENE_TRANSPARENCY,
   SCENE_BUMPS,
+  SCENE_PICTURES, /* of a texture's file, beyond the first */
   SCENE_COLOURS,
   SCENE_EMISSION,
   SCENE_LIGHTS,

@@ -12,6 +12,7 @@ bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const 
   static const char *const sentences[SCENE_IGNORED] = {
       [SCENE_TRANSPARENCY] = "transparency is ignored, surfaces are opaque:",
       [SCENE_BUMPS] = "bump and normal maps are ignored:",
+      [SCENE_PICTURES] = "only the first picture of a texture's file is read:",
       [SCENE_COLOURS] = "colours of vertices are ignored:",
       [SCENE_EMISSION] = "emission is shown but lights nothing:",
       [SCENE_LIGHTS] = "lights of the file are ignored:",

@@ -25,6 +25,7 @@ enum result scene_add_texture(struct scene_loading *loading, char *path, const v
                               size_t size, const char *suffix, int *number, struct error *error) {
   struct scene *scene = loading->scene;
   struct picture picture;
+  struct slab_image_says says;
   enum result result = RESULT_OK;
   int count = scene->texture_count, room = count;
   for (int k = 0; path && k < count; ++k)
@@ -39,10 +40,13 @@ enum result scene_add_texture(struct scene_loading *loading, char *path, const v
   /* glTF's are sRGB whatever they say of themselves. */
   enum slab_image_colours colours =
       loading->format == SCENE_GLTF ? SLAB_IMAGE_SRGB : SLAB_IMAGE_OWN;
-  result = slab_image_read(path, bytes, size, suffix, colours, &picture, NULL, error);
+  result = slab_image_read(path, bytes, size, suffix, colours, &picture, &says, error);
   if (result != RESULT_OK) goto out;
-  scene->textures[count] = (struct scene_texture){.path = path, .picture = picture};
+  scene->textures[count] =
+      (struct scene_texture){.path = path, .picture = picture, .transparent = says.transparent};
   *number = scene->texture_count++;
+  if (says.several && !scene_ignore(loading, SCENE_PICTURES, path))
+    result = result_fail(error, RESULT_MEMORY, "%s: out of memory", loading->path);
   path = NULL;
 out:
   free(path);

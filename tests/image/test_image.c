@@ -234,6 +234,26 @@ TEST(test_palettes) {
   assert_true(says.transparent);
 }
 
+/* The first picture is read; that there are others is told. */
+TEST(several) {
+  struct image gif = {0};
+  image_put(&gif, "GIF89a\x02\0\x01\0\x80\0\0\0\0\xff\0\xff\0", 19);
+  for (int frame = 0; frame < 2; ++frame) {
+    image_put(&gif, ",\0\0\0\0\x02\0\x01\0\0\x02\x02\x0c\x0a\0", 15);
+    struct image whole = {0};
+    image_put(&whole, gif.bytes, gif.size);
+    image_put(&whole, ";", 1);
+    expect_pixel(&whole, "gif", (double[]){0, 1, 0}, 0);
+    assert_int_equal(says.several, frame > 0);
+  }
+  for (int k = 0; k < 2; ++k) {
+    struct image image = made(k ? "pages.tif" : "parts.exr",
+                              "--pattern constant:color=1,0.5,0 2x2 3 --dup --siappend -d float");
+    expect_pixel(&image, NULL, (double[]){1, 0.5, 0}, 0);
+    assert_true(says.several);
+  }
+}
+
 /* ICC profiles hold primaries under D50: those of Rec. 709 and of Display P3, red first. */
 static const double rec_709[3][3] = {{0.4360747, 0.2225045, 0.0139322},
                                      {0.3850649, 0.7168786, 0.0971045},

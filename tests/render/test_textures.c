@@ -109,6 +109,42 @@ TEST(test_embedded) {
   scene_free(&scene);
 }
 
+/* A mesh of MTL with the material x, and of glTF. */
+static void expect_told(const char *picture, enum scene_ignored kind, bool told, bool in_gltf) {
+  char text[1024];
+  snprintf(text, sizeof text, "newmtl x\nmap_Kd %s\n", picture);
+  meshes_write("told.mtl", text);
+  snprintf(
+      text, sizeof text,
+      "\"materials\":[{\"name\":\"x\",\"alphaMode\":\"%s\",\"pbrMetallicRoughness\":{"
+      "\"metallicFactor\":0,\"baseColorTexture\":{\"index\":0}}}],\"textures\":[{\"source\":0}],"
+      "\"images\":[{\"uri\":\"%s\"}],",
+      in_gltf ? "MASK" : "OPAQUE", picture);
+  for (int k = 0; k < 2; ++k) {
+    const char *mesh = k ? meshes_gltf("told.gltf", "", ",\"material\":0", text)
+                         : meshes_write("told.obj", "mtllib told.mtl\n" MESHES_CORNERS
+                                                    "vt 0 0\nusemtl x\nf 1/1/1 3/1/1 2/1/1\n");
+    struct scene scene = meshes_load(mesh, SCENE_SURFACES, false, NULL);
+    for (int other = 0; other < SCENE_IGNORED; ++other)
+      if (other == (int)kind && told && (k == 0 || in_gltf))
+        assert_non_null(scene.ignored[other]);
+      else
+        assert_null(scene.ignored[other]);
+    scene_free(&scene);
+  }
+}
+
+/* Alpha in a texture's file, where it means something, and pictures after the first are told. */
+TEST(what_is_in_the_file) {
+  write_picture("alpha.png", "--mulc 0.5 --ch R,G,B,A=0.5 -d uint8");
+  write_picture("opaque.png", "--ch R,G,B,A=1 -d uint8");
+  write_picture("pages.tif", "-d uint8 --dup --siappend");
+  expect_told("alpha.png", SCENE_TRANSPARENCY, true, true);
+  expect_told("alpha.png", SCENE_TRANSPARENCY, true, false);
+  expect_told("opaque.png", SCENE_TRANSPARENCY, false, true);
+  expect_told("pages.tif", SCENE_PICTURES, true, true);
+}
+
 int main(void) {
   return testing_run(NULL, NULL);
 }
