@@ -31,7 +31,7 @@ const struct scene_mtl *scene_mtl_find(const struct scene_mtls *mtls, const char
 static enum result new_material(struct scene_mtls *mtls, const struct scene_line *line,
                                 struct error *error) {
   struct scene_mtl made = {.material = {.texture = -1}, .library = mtls->libraries - 1};
-  if (!line->rest[0] || strlen(line->rest) >= sizeof made.material.name)
+  if (strlen(line->rest) >= sizeof made.material.name)
     return result_fail(error, RESULT_BAD, "%s:%zu: newmtl needs a name of less than %zu letters",
                        line->path, line->number, sizeof made.material.name);
   const struct scene_mtl *there = scene_mtl_find(mtls, line->rest);
@@ -120,19 +120,23 @@ static bool read_option(char **text, bool *changes) {
   return option != NULL;
 }
 
-static enum result read_texture(struct scene_mtls *mtls, const struct scene_line *line,
-                                struct scene_mtl *mtl, struct error *error) {
+/* What a material has and is not supported; it is refused if a face has the material. */
+static void note_unread(struct scene_mtl *mtl, const struct scene_line *line, const char *has,
+                        const char *option) {
+  if (mtl->unread++ > 0) return;
+  mtl->unread_line = line->number;
+  snprintf(mtl->unread_what, sizeof mtl->unread_what, "%s%s%s", line->keyword, has, option);
+}
+
+static enum result read_texture(const struct scene_line *line, struct scene_mtl *mtl,
+                                struct error *error) {
   char *name = line->rest;
-  enum result result = RESULT_OK;
-  while (name[0] == '-' && result == RESULT_OK) {
+  while (name[0] == '-') {
     const char *option = name;
     bool changes;
     read_option(&name, &changes);
-    if (changes)
-      result = scene_unread(mtls->loading, error, "%s:%zu: %s has the option %s", line->path,
-                            line->number, line->keyword, option);
+    if (changes) note_unread(mtl, line, " has the option ", option);
   }
-  if (result != RESULT_OK) return result;
   if (!name[0] || strlen(name) >= sizeof mtl->texture)
     return result_fail(error, RESULT_BAD, "%s:%zu: %s needs the name of a file", line->path,
                        line->number, line->keyword);
@@ -190,10 +194,10 @@ static enum result read_line(void *context, const struct scene_line *line, struc
   if (is(keyword, "Ks")) return read_colour(line, mtl->material.specular, error);
   if (is(keyword, "Ke")) return read_colour(line, mtl->material.emission, error);
   if (is(keyword, "Ns")) return read_shininess(line, &mtl->material.shininess, error);
-  if (is(keyword, "map_Kd")) return read_texture(mtls, line, mtl, error);
-  if (is_one_of(keyword, unread))
-    return scene_unread(mtls->loading, error, "%s:%zu: %s", line->path, line->number, keyword);
-  if (is_one_of(keyword, opacity)) {
+  if (is(keyword, "map_Kd")) return read_texture(line, mtl, error);
+  if (is_one_of(keyword, unread)) {
+    note_unread(mtl, line, "", "");
+  } else if (is_one_of(keyword, opacity)) {
     read_opacity(mtl, line);
   } else if (is(keyword, "map_d")) {
     mtl->see_through = true;
@@ -271,11 +275,21 @@ static enum result use_texture(struct scene_mtls *mtls, const struct scene_mtl *
   return result_fail(error, result, "%s", inner.text);
 }
 
+static enum result refuse_unread(struct scene_mtls *mtls, const struct scene_mtl *mtl,
+                                 struct error *error) {
+  if (mtl->unread == 0) return RESULT_OK;
+  mtls->loading->unread += mtl->unread - 1; /* scene_unread counts one */
+  return scene_unread(mtls->loading, error, "%s:%zu: %s", mtls->library[mtl->library],
+                      mtl->unread_line, mtl->unread_what);
+}
+
 enum result scene_mtl_use(struct scene_mtls *mtls, const struct scene_mtl *mtl,
                           struct scene_material *material, struct error *error) {
   struct scene_loading *loading = mtls->loading;
   const char *name = mtl->material.name;
   *material = mtl->material;
+  enum result result = refuse_unread(mtls, mtl, error);
+  if (result != RESULT_OK) return result;
   bool glows = !vector_is_zero(material->emission);
   if (!mtl->has_diffuse && (mtl->has_texture || !glows))
     for (int c = 0; c < 3; ++c) material->diffuse[c] = 1; /* the texture is all its colour */
@@ -286,12 +300,13 @@ enum result scene_mtl_use(struct scene_mtls *mtls, const struct scene_mtl *mtl,
                          "%s: material '%s' has no Kd, map_Kd or Ke; --repair makes it white",
                          mtls->library[mtl->library], name);
   }
-  enum result result =
-      ignore(mtls, SCENE_TRANSPARENCY, mtl->transparent || mtl->see_through, name, error);
+  if (mtl->has_texture) result = use_texture(mtls, mtl, &material->texture, error);
+  bool transparent =
+      mtl->transparent || mtl->see_through ||
+      (material->texture >= 0 && loading->scene->textures[material->texture].transparent);
+  if (result == RESULT_OK) result = ignore(mtls, SCENE_TRANSPARENCY, transparent, name, error);
   if (result == RESULT_OK) result = ignore(mtls, SCENE_BUMPS, mtl->bumps, name, error);
   if (result == RESULT_OK) result = ignore(mtls, SCENE_EMISSION, glows, name, error);
-  if (result == RESULT_OK && mtl->has_texture)
-    result = use_texture(mtls, mtl, &material->texture, error);
   return result;
 }
 

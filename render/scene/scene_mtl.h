@@ -4,8 +4,8 @@
  * and map_Kd are what scene.h says; d, Tr and map_d, bump and normal maps, and statements that
  * nobody knows are noted as ignored. Options of map_Kd that change nothing here are read over
  * (-blendu, -blendv, -boost, -texres, -type, -cc, -bm, -imfchan, -colorspace, and others with
- * the values that they have by themselves); else they are refused, by name, and so are map_Ks,
- * map_Ke and map_Ns. */
+ * the values that they have by themselves). A face whose material has others, map_Ks, map_Ke or
+ * map_Ns is refused, by their name. */
 #ifndef SCENE_MTL_H
 #define SCENE_MTL_H
 
@@ -18,6 +18,8 @@ struct scene_mtl {
   bool transparent, see_through, bumps; /* d or Tr, map_d, bump maps: ignored */
   bool has_opacity;                     /* d, which decides whatever Tr says */
   char texture[1024];                   /* as the file names it */
+  size_t unread, unread_line;           /* what is not supported: how much, the first one's line */
+  char unread_what[64];                 /* and what it is */
 };
 
 /* What MTL files declare. */
@@ -36,11 +38,12 @@ struct scene_mtls {
  * cannot be opened. */
 enum result scene_mtl_read(struct scene_mtls *mtls, const char *names, struct error *error);
 
-/* The material of that name, or NULL. */
+/* The material of that name, or NULL. Some programs write one without: "". */
 const struct scene_mtl *scene_mtl_find(const struct scene_mtls *mtls, const char *name);
 
-/* Makes it a material of the scene, and reads its texture. Refuses one without a colour, which
- * `repair` makes white, and a texture that cannot be read, without which `repair` does. */
+/* Makes it a material of the scene, and reads its texture. Refuses what is not supported, which
+ * `repair` ignores, one without a colour, which `repair` makes white, and a texture that cannot be
+ * read, without which `repair` does. */
 enum result scene_mtl_use(struct scene_mtls *mtls, const struct scene_mtl *mtl,
                           struct scene_material *material, struct error *error);
 

@@ -129,7 +129,7 @@ static enum result find_material(struct obj *obj, struct error *error) {
   struct scene_material *material = &scene->materials[count];
   *material = (struct scene_material){.texture = -1};
   obj->faces.material = scene->material_count++;
-  const struct scene_mtl *mtl = *obj->material ? scene_mtl_find(&obj->mtls, obj->material) : NULL;
+  const struct scene_mtl *mtl = scene_mtl_find(&obj->mtls, obj->material);
   enum result result =
       mtl ? scene_mtl_use(&obj->mtls, mtl, material, error) : no_material(obj, material, error);
   memcpy(material->name, obj->material, sizeof material->name);

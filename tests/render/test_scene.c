@@ -151,6 +151,7 @@ TEST(test_repeated) {
   scene_free(&whole);
 }
 
+#define FORTY "0123456789012345678901234567890123456789"
 TEST(test_mtl_refused) {
   static const char *const cases[][2] = {
       {"newmtl x\nKd 1 1\n", "m.mtl:2: 'Kd 1 1'"},
@@ -158,7 +159,7 @@ TEST(test_mtl_refused) {
       {"newmtl x\nKd 1 1 1\nKs 0 0 -1\n", ":3: 'Ks 0 0 -1'"},
       {"newmtl x\nKe 1 1 nan\n", "'Ke 1 1 nan'"},
       {"newmtl x\nNs -1\n", "'Ns -1'"},
-      {"newmtl\nKd 1 1 1\n", "needs a name"},
+      {"newmtl " FORTY FORTY FORTY "12345678\nKd 1 1 1\n", "needs a name of less than 128"},
       {"newmtl x\nnewmtl x\n", "two materials 'x'"},
       {"newmtl x\nmap_Kd\n", "name of a file"},
       {"newmtl x\nmap_Kd -s 2 2 2 a.png\n", "not supported; --repair"},
