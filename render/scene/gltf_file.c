@@ -9,8 +9,10 @@
 
 #include "scene/gltf.h"
 
-/* A larger text is a mistake, or meant to fill the memory. */
-enum { MOST_TEXT = 256 << 20 };
+/* A larger text is a mistake, or meant to fill the memory; and so is one of more values than need
+ * 1 GiB: of 100 bytes for each bracket, colon and comma, and again for each object (jansson 2.14
+ * takes 9/10 of that or less). */
+enum { MOST_TEXT = 256 << 20, MOST_MARKS = (1 << 30) / 100 };
 
 /* Words of a .glb: magic, version, length; length and kind of the first chunk. */
 enum { GLB_MAGIC = 0x46546c67, GLB_JSON = 0x4e4f534a, GLB_BINARY = 0x004e4942 };
@@ -99,11 +101,24 @@ static enum result read_bytes(FILE *file, size_t from, size_t size, struct gltf_
                      errno ? strerror(errno) : "it became shorter");
 }
 
+static size_t count_marks(const char *text) {
+  size_t marks = 0;
+  for (bool quoted = false; *text; ++text) {
+    if (*text == '"') quoted = !quoted;
+    if (quoted && *text == '\\' && text[1]) ++text;
+    if (!quoted && strchr("{[:,", *text)) marks += *text == '{' ? 2 : 1;
+  }
+  return marks;
+}
+
 static enum result parse(struct gltf *gltf, const char *text, struct error *error) {
   static const char mark[] = "\xef\xbb\xbf"; /* some editors write it before UTF-8 */
   if (strncmp(text, mark, 3) == 0) text += 3;
   if (text[strspn(text, " \t\r\n")] != '{')
     return result_fail(error, RESULT_BAD, "is no glTF, which begins with '{' or 'glTF'");
+  if (count_marks(text) > MOST_MARKS)
+    return result_fail(error, RESULT_BAD,
+                       "has a JSON text of too many values: they need more than 1 GiB of memory");
   enum result result = json_read(text, JSON_ALLOW_NUL, &gltf->root, error);
   if (result != RESULT_OK) return result_at(result, error, "cannot be read as a mesh");
   const json_t *asset = json_object_get(gltf->root, "asset");

@@ -9,6 +9,8 @@
 #include "base/array.h"
 #include "base/vector.h"
 
+enum { FANS = 8 }; /* corners that are tried */
+
 static enum result no_memory(const struct scene_faces *faces, struct error *error) {
   return result_at(result_no_memory(error), error, "%s", faces->loading->path);
 }
@@ -137,22 +139,26 @@ static void face_normal(const struct scene_faces *faces, const struct scene_corn
   }
 }
 
-/* Does the first corner see all others, each further around it, within half a turn? Then the
- * triangles are a fan. */
+/* Does the corner see all others, each further around it, within a turn? Then the triangles are a
+ * fan. */
 static bool make_fan(const struct scene_faces *faces, const struct scene_corner *corners, int count,
-                     const double normal[3]) {
+                     const double normal[3], int apex) {
   double first[3], edge[3], cross[3], own[3];
-  vector_subtract(at(faces, &corners[1]), at(faces, &corners[0]), first);
-  for (int k = 1; k < count - 1; ++k) {
-    const double *corner[3] = {at(faces, &corners[0]), at(faces, &corners[k]),
-                               at(faces, &corners[k + 1])};
+  bool behind = false; /* more than half a turn from the first edge */
+  vector_subtract(at(faces, &corners[(apex + 1) % count]), at(faces, &corners[apex]), first);
+  for (int k = 0; k < count - 2; ++k) {
+    int *triangle = faces->triangle[k];
+    triangle[0] = apex;
+    triangle[1] = (apex + k + 1) % count;
+    triangle[2] = (apex + k + 2) % count;
+    const double *corner[3] = {at(faces, &corners[apex]), at(faces, &corners[triangle[1]]),
+                               at(faces, &corners[triangle[2]])};
     if (!scene_has_area(corner, own) || !(vector_dot(own, normal) > 0)) return false;
     vector_subtract(corner[2], corner[0], edge);
     vector_cross(first, edge, cross);
-    if (!(vector_dot(cross, normal) > 0)) return false;
-    faces->triangle[k - 1][0] = 0;
-    faces->triangle[k - 1][1] = k;
-    faces->triangle[k - 1][2] = k + 1;
+    bool ahead = vector_dot(cross, normal) > 0;
+    if (behind && ahead) return false;
+    behind = !ahead;
   }
   return true;
 }
@@ -169,7 +175,8 @@ static enum result triangulate(struct scene_faces *faces, const struct scene_cor
   for (int k = 0; k < 3; ++k) faces->triangle[0][k] = k;
   if (count == 3) return RESULT_OK;
   face_normal(faces, corners, count, normal);
-  if (make_fan(faces, corners, count, normal)) return RESULT_OK;
+  for (int apex = 0; apex < count && apex < FANS; ++apex)
+    if (make_fan(faces, corners, count, normal, apex)) return RESULT_OK;
   *made = 0;
   if (vector_is_zero(normal)) return RESULT_OK;
   double(*points)[3] = malloc((size_t)count * sizeof *points);

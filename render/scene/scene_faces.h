@@ -2,9 +2,9 @@
  * triangles of a scene.
  *
  * Coordinates are doubles, in the file's frame; the scene's are in POV-Ray's (z mirrored). A face
- * whose first corner sees all others is a fan around that one; others are triangulated by
- * scene_triangulate.cc, so that they cover what their outline encloses. Corners share a vertex
- * where position, normal and texture coordinates are the same. */
+ * of which one of the first corners sees all others is a fan around that one; others are
+ * triangulated by scene_triangulate.cc, so that they cover what their outline encloses. Corners
+ * share a vertex where position, normal and texture coordinates are the same. */
 #ifndef SCENE_FACES_H
 #define SCENE_FACES_H
 

@@ -226,16 +226,25 @@ static int find_list(const struct ply_element *element) {
   return -1;
 }
 
+static bool is(const struct ply_element *element, const char *name) {
+  return strcmp(element->name, name) == 0;
+}
+
 /* Faces, or strips of triangles. */
-static enum result read_faces(struct ply *ply, const struct ply_element *element, bool strips,
+static bool has_faces(const struct ply_element *element) {
+  return is(element, "face") || is(element, "tristrips");
+}
+
+static enum result read_faces(struct ply *ply, const struct ply_element *element,
                               struct error *error) {
+  bool strips = is(element, "tristrips");
   struct scene_corner *corner = NULL;
   int room = 0, list = find_list(element);
   enum result result = RESULT_OK;
-  if (list < 0 || (!ply->vertices_read && element->count > 0))
-    return result_fail(error, RESULT_BAD, "%s: cannot be read as a mesh: %s", ply->loading->path,
-                       list < 0 ? "faces have no list vertex_indices"
-                                : "faces come before vertices");
+  if (list < 0)
+    return result_fail(error, RESULT_BAD,
+                       "%s: cannot be read as a mesh: faces have no list vertex_indices",
+                       ply->loading->path);
   for (unsigned long long k = 0; k < element->count && result == RESULT_OK; ++k) {
     double number;
     ply->faces.number = (size_t)k + 1;
@@ -259,18 +268,26 @@ static enum result skip(struct ply *ply, const struct ply_element *element, stru
   return RESULT_OK;
 }
 
+/* Faces that come before the vertices are read after them. */
 static enum result read_data(struct ply *ply, struct error *error) {
   enum result result = RESULT_OK;
+  long later[PLY_ELEMENTS] = {0}; /* where they begin; 0: nothing is left to be read */
   for (int e = 0; e < ply->header.elements && result == RESULT_OK; ++e) {
     const struct ply_element *element = &ply->header.element[e];
-    bool strips = strcmp(element->name, "tristrips") == 0;
-    if (strcmp(element->name, "vertex") == 0)
+    bool faces = has_faces(element);
+    if (faces && !ply->vertices_read) later[e] = ftell(ply->file);
+    if (is(element, "vertex"))
       result = read_vertices(ply, element, error);
-    else if (strips || strcmp(element->name, "face") == 0)
-      result = read_faces(ply, element, strips, error);
+    else if (faces && later[e] == 0)
+      result = read_faces(ply, element, error);
     else
       result = skip(ply, element, error);
   }
+  for (int e = 0; e < ply->header.elements && result == RESULT_OK; ++e)
+    if (later[e] > 0)
+      result = fseek(ply->file, later[e], SEEK_SET) == 0
+                   ? read_faces(ply, &ply->header.element[e], error)
+                   : result_fail(error, RESULT_IO, "%s: %s", ply->loading->path, strerror(errno));
   return result;
 }
 

@@ -252,6 +252,24 @@ TEST(wrong_numbers) {
                  "mesh 'm' has 2 corners, which is no whole number of triangles");
 }
 
+/* A text of little values would take fifty times its size. */
+TEST(too_many_values) {
+  static const char *const values[] = {"0,", "[],", "{},", "{\"a\":0},", "[[0]],"};
+  static const char start[] = "{\"asset\":{\"version\":\"2.0\"},\"extras\":[";
+  enum { SIZE = 24 << 20 };
+  char *text = malloc(SIZE + 64);
+  assert_non_null(text);
+  for (size_t k = 0; k < sizeof values / sizeof *values; ++k) {
+    size_t length = strlen(values[k]), at = sizeof start - 1;
+    memcpy(text, start, at);
+    for (; at < SIZE; at += length) memcpy(text + at, values[k], length);
+    strcpy(text + at, "0]}");
+    meshes_refused(meshes_write("many.gltf", text), SCENE_SHAPE, false, "too many values");
+  }
+  unlink(scratch("many.gltf"));
+  free(text);
+}
+
 /* Points and lines are told, and are no triangles. */
 TEST(points_and_lines) {
   struct made_gltf made = triangle();

@@ -71,6 +71,35 @@ TEST(one_material_in_many_words) {
   for (size_t k = 0; k < sizeof files / sizeof *files; ++k) is_red(with(files[k]), 2, false, "");
 }
 
+/* Materials without a name, which old versions of Blender write. */
+TEST(no_name) {
+  meshes_write("m.mtl",
+               "# Blender MTL File: 'None'\nnewmtl\nKd 0.5 0.25 0.125\nnewmtl x\nKd 0 0 1\n");
+  struct scene scene =
+      meshes_load(meshes_write("m.obj", "mtllib m.mtl\n" SQUARE "usemtl \nf 1//1 2//1 3//1 4//1\n"),
+                  SCENE_SURFACES, false, NULL);
+  assert_near(scene.materials[scene.material[0]].diffuse[1], 0.25, 0);
+  scene_free(&scene);
+}
+
+/* What is not supported matters only where a face has the material. */
+TEST(unused_materials) {
+  static const char *const others[] = {"map_Ks x.png", "map_Kd -o 1 x.png", "map_Kd none.png"};
+  char mtl[256];
+  for (size_t k = 0; k < sizeof others / sizeof *others; ++k) {
+    snprintf(mtl, sizeof mtl, "newmtl other\n%s\nmap_Ke x.png\n" RED, others[k]);
+    is_red(with(mtl), 2, false, "");
+    is_red(with(mtl), 2, true, "");
+  }
+  meshes_write("m.mtl", RED "map_Ke x.png\nmap_Kd -o 1 m.mtl\nmap_Ks x.png\n");
+  const char *mesh =
+      meshes_write("m.obj", "mtllib m.mtl\nusemtl red\n" SQUARE "f 1//1 2//1 3//1\n");
+  meshes_refused(mesh, SCENE_SURFACES, false, "m.mtl:3: map_Ke, which is not supported");
+  is_red(
+      mesh, 1, true,
+      "textures that cannot be read left out: 1; unsupported properties of materials ignored: 3");
+}
+
 /* What the message blames, --repair gets past. */
 TEST(repairs) {
   static const char *const cases[][3] = {
@@ -185,6 +214,30 @@ TEST(strips) {
   scene_free(&scene);
 }
 
+/* Faces may come before the vertices. */
+#define EARLY(format)                                                                              \
+  "ply\nformat " format " 1.0\nelement face 2\nproperty list uchar int vertex_indices\nelement "   \
+  "vertex 4\n" XYZ UP "end_header\n"
+TEST(faces_before_vertices) {
+  static const char faces[] = "\3\0\0\0\0\1\0\0\0\2\0\0\0\4\0\0\0\0\1\0\0\0\2\0\0\0\3\0\0\0";
+  static const float corners[] = {0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1,
+                                  1, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1};
+  FILE *file = fopen(scratch("early.ply"), "w");
+  assert_non_null(file);
+  fputs(EARLY("binary_little_endian"), file);
+  fwrite(faces, sizeof faces - 1, 1, file);
+  fwrite(corners, sizeof corners, 1, file);
+  assert_int_equal(fclose(file), 0);
+  for (int binary = 0; binary < 2; ++binary) {
+    const char *path = binary ? scratch("early.ply")
+                              : meshes_write("e.ply", EARLY("ascii") "3 0 1 2 4 0 1 2 3\n" CORNERS);
+    struct scene scene = meshes_load(path, SCENE_SURFACES, false, NULL);
+    assert_int_equal(scene.triangles, 3);
+    for (int k = 0; k < 3; ++k) assert_near(scene.position[scene.corners[0][k]][0], k != 0, 0);
+    scene_free(&scene);
+  }
+}
+
 TEST(bad_ply) {
   static const char *const cases[][2] = {
       {"", "does not begin with ply"},
@@ -207,10 +260,10 @@ TEST(bad_ply) {
       {PLY("ascii", XYZ UP FACE) CORNERS "2 0 1", "face 1 has less than three corners"},
       {PLY("ascii", XYZ UP FACE) CORNERS "4 0 2 1 3", "face 1 has no area"},
       {PLY("ascii", XYZ UP FACE) CORNERS "5 0 2 1 3 3", "face 1 has no area"},
-      {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement "
-       "vertex "
-       "4\n" XYZ "end_header\n3 0 1 2\n",
-       "faces come before vertices"},
+      {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+       "end_header\n3 0 1 2\n",
+       "face 1 has a corner that is no vertex"},
+      {EARLY("ascii") "3 0 1 2 3 0 2 4\n" CORNERS, "face 2 has a corner that is no vertex"},
       {PLY("ascii", XYZ "element face 1\nproperty int a\nend_header\n") "0 0 0 1 0 0 1 1 0 0 1 0 1",
        "no list vertex_indices"},
       {PLY("binary_little_endian", XYZ FACE) "0123", "is cut off: element 'vertex' 1 of 4"},
