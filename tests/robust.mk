@@ -1,25 +1,27 @@
-# What is given to break the programs. tests/fuzz/fuzz_*.c are fuzzers, each with its seeds in
-# tests/fuzz/seeds/: the seeds run in `make test` as fuzz/tiff and so on; `make fuzz` builds the
+# What is given to break the programs. tests/fuzz/fuzz_*.c and .cc are fuzzers, each with its seeds
+# in tests/fuzz/seeds/: the seeds run in `make test` as fuzz/tiff and so on; `make fuzz` builds the
 # fuzzers with libFuzzer and gives each its part of FUZZ_SECONDS; they are linked as C++, which
 # CGAL's checked types ask for.
-FUZZ_SOURCES := $(sort $(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_NAMES := $(FUZZ_SOURCES:tests/fuzz/fuzz_%.c=%)
+FUZZ_SOURCES := $(sort $(wildcard tests/fuzz/fuzz_*.c tests/fuzz/fuzz_*.cc))
+FUZZ_NAMES := $(patsubst tests/fuzz/fuzz_%,%,$(basename $(FUZZ_SOURCES)))
 FUZZ_SECONDS ?= 60
 TEST_NAMES += $(FUZZ_NAMES:%=fuzz/%)
 
 FUZZ_RENDER := faces gltf mtl obj ply receivers words
 fuzz_libs = $(if $(filter $(FUZZ_RENDER),$(1)),$(RENDER_LIBS)) $(ALL_LDLIBS)
-fuzz_tested = $(if $(filter $(FUZZ_RENDER),$(1)),$(B)/librender.a,$(B)/libbake.a) $(B)/libslab.a
+FUZZ_IMAGE_OBJECTS := $(patsubst %,$(B)/bakeslab/image/%.cc.o,says colours)
+fuzz_object = $(patsubst %.c,$(B)/%.o,$(patsubst %.cc,$(B)/%.cc.o,$(filter tests/fuzz/fuzz_$(1).%,$(FUZZ_SOURCES))))
+fuzz_tested = $(if $(filter image,$(1)),$(FUZZ_IMAGE_OBJECTS)) $(if $(filter $(FUZZ_RENDER),$(1)),$(B)/librender.a,$(B)/libbake.a) $(B)/libslab.a
 
 define fuzz_programs
-$(B)/tests/fuzz/corpus_$(1): $(B)/tests/fuzz/fuzz_$(1).o $(B)/tests/fuzz/fuzz.o $(B)/tests/fuzz/corpus.o $(call fuzz_tested,$(1))
+$(B)/tests/fuzz/corpus_$(1): $(call fuzz_object,$(1)) $(B)/tests/fuzz/fuzz.o $(B)/tests/fuzz/corpus.o $(call fuzz_tested,$(1))
 	$$(call say,LINK,$$@)
 	$$(Q)$$(CC) $$(ALL_LDFLAGS) $$^ $$(call fuzz_libs,$(1)) -o $$@
 
 $(B)/tests/fuzz/$(1).log: $(B)/tests/fuzz/corpus_$(1) FORCE
 	@$$(TEST_ENV) sh tests/run.sh $$@ $$< $$(sort $$(wildcard tests/fuzz/seeds/$(1)/*))
 
-$(B)/tests/fuzz/fuzz_$(1): $(B)/tests/fuzz/fuzz_$(1).o $(B)/tests/fuzz/fuzz.o $(call fuzz_tested,$(1))
+$(B)/tests/fuzz/fuzz_$(1): $(call fuzz_object,$(1)) $(B)/tests/fuzz/fuzz.o $(call fuzz_tested,$(1))
 	$$(call say,LINK,$$@)
 	$$(Q)$$(CXX) $$(ALL_LDFLAGS) -fsanitize=fuzzer $$^ $$(call fuzz_libs,$(1)) -o $$@
 endef

@@ -33,8 +33,8 @@ struct slab_image_says {
  * `path` is the file or, where `bytes` are given, only what messages call it. `suffix` is what
  * names of such files end in, which only TGA needs; NULL: as `path` ends. `says` may be NULL.
  * RESULT_BAD for what is no image, what is refused by name (other profiles, CMYK, Lab, XYZE, more
- * than 2^27 pixels) and values that are negative, not finite or outside Rec. 709; RESULT_IO
- * without the file or the program. */
+ * than 2^27 pixels, more than 2 GiB) and values that are negative, not finite or outside Rec. 709;
+ * RESULT_IO without the file or the program. */
 enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
                             enum slab_image_colours colours, struct picture *picture,
                             struct slab_image_says *says, struct error *error);

@@ -132,6 +132,7 @@ Curve Profile::parametric(size_t at) const {
   double p[7] = {1, 1, 0, 0, 0, 0, 0}; /* g a b c d e f */
   for (size_t k = 0; k < counts[type]; ++k) p[k] = fixed(at + 12 + 4 * k);
   double g = p[0], a = p[1], b = p[2], c = p[3], d = p[4], e = p[5], f = p[6];
+  if ((type == 1 || type == 2) && a == 0) refuse("is damaged");
   if (type == 1 || type == 2) {
     d = -b / a;
     e = f = type == 2 ? c : 0;

@@ -3,6 +3,8 @@
 #include <strings.h>
 #include <tiffio.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -14,6 +16,12 @@
 
 /* ---- PNG, 3rd edition: section 4.3 says which of its chunks counts ---- */
 
+/* A type is four letters. Without that, 4 GB of zeros would be as many chunks. */
+static bool is_chunk(const std::string &type) {
+  return type.size() == 4 && std::all_of(type.begin(), type.end(),
+                                         [](unsigned char letter) { return std::isalpha(letter); });
+}
+
 static void read_png(const Bytes &file, Says &says) {
   bool srgb = false, coded = false;
   double gamma = 0;
@@ -21,7 +29,7 @@ static void read_png(const Bytes &file, Says &says) {
   for (uint64_t at = 8, end = file.size(); at < end; at += 12 + file.big(at, 4)) {
     std::string type = file.text(at + 4, 4);
     uint64_t data = at + 8;
-    if (type == "IDAT" || type.size() < 4) break;
+    if (type == "IDAT" || !is_chunk(type)) break;
     if (type == "iCCP") says.has_profile = true;
     if (type == "sRGB") srgb = true;
     if (type == "gAMA") gamma = double(file.big(data, 4)) / 1e5;
@@ -215,6 +223,8 @@ static std::string format_of(const Bytes &file, const std::string &suffix) {
 
 Says says_read(const Bytes &file, const std::string &suffix) {
   Says says;
+  if (file.size() > says_most_bytes)
+    refuse("is no image that can be read: it has more than 2 GiB; make it smaller");
   says.format = format_of(file, suffix);
   if (says.format == "png") read_png(file, says);
   if (says.format == "jpeg") read_jpeg(file, says);

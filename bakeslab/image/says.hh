@@ -10,7 +10,8 @@
 #include "image/bytes.hh"
 #include "image/colours.hh"
 
-constexpr uint64_t says_most_pixels = 1 << 27; /* 16384 x 8192: 2 GB of memory at most */
+constexpr uint64_t says_most_pixels = 1 << 27;          /* 16384 x 8192: 2 GB of memory at most */
+constexpr uint64_t says_most_bytes = uint64_t(1) << 31; /* PNM are read as a whole */
 constexpr char says_too_large[] =
     "is no image that can be read: it has more than 2^27 pixels; make it smaller";
 

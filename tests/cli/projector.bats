@@ -77,11 +77,14 @@ declines() {
   printf 'P4\n65535 65535\n' >large.pbm
   truncate -s 600M large.pbm
   truncate -s 4G zeros.png
+  printf '\x89PNG\r\n\x1a\n' >chunks.png
+  truncate -s 2G chunks.png
   mkfifo pipe.png
-  for name in empty.png nothing.ppm huge.ppm large.pbm zeros.png; do
+  for name in empty.png nothing.ppm huge.ppm large.pbm zeros.png chunks.png; do
     declines 1 "$name: is no image that can be read" -- "$name" -o s.tif "${where[@]}"
   done
   declines 1 "large.pbm: is no image that can be read: it has more than 2^27 pixels" -- large.pbm -o s.tif "${where[@]}"
+  declines 1 "zeros.png: is no image that can be read: it has more than 2 GiB" -- zeros.png -o s.tif "${where[@]}"
   for name in . pipe.png /dev/zero; do
     declines 1 "$name: is not a file" -- "$name" -o s.tif "${where[@]}"
   done

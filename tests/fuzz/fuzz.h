@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
   do                                                                                               \
     if (!(holds)) fuzz_failed(#holds, __FILE__, __LINE__);                                         \
   while (0)
-_Noreturn void fuzz_failed(const char *what, const char *file, int line);
+void fuzz_failed(const char *what, const char *file, int line) __attribute__((noreturn));
 
 /* The input with a 0 at its end; the caller frees it. */
 char *fuzz_text(const uint8_t *data, size_t size);
