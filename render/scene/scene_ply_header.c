@@ -8,16 +8,17 @@ enum { WORDS = 5, LINE = 512 };
 
 const int ply_sizes[PLY_TYPES] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
 
-/* A line without its end; of a longer one the start. False at the end of the file. */
+/* A line without its end; of a longer one the start. False at the end of the file, and at a zero
+ * byte, which no text has. */
 static bool read_line(FILE *file, char line[LINE]) {
   size_t length = 0;
   int c = getc_unlocked(file);
   if (c == EOF) return false;
-  for (; c != EOF && c != '\n' && c != '\r'; c = getc_unlocked(file))
+  for (; c != EOF && c != 0 && c != '\n' && c != '\r'; c = getc_unlocked(file))
     if (length < LINE - 1) line[length++] = (char)c;
   if (c == '\r' && (c = getc_unlocked(file)) != '\n' && c != EOF) ungetc(c, file);
   line[length] = 0;
-  return true;
+  return c != 0;
 }
 
 static enum result refuse(const char *path, const char *line, struct error *error) {
