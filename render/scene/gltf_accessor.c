@@ -176,7 +176,8 @@ static enum result read_all(struct gltf *gltf, const json_t *accessor,
     result = result_fail(error, RESULT_BAD, "has no bufferView");
   if (result != RESULT_OK) return result;
   numbers->width = element.width;
-  numbers->at = calloc(numbers->count, width * sizeof *numbers->at);
+  if (scene_fits(numbers->count, width * sizeof *numbers->at))
+    numbers->at = calloc(numbers->count, width * sizeof *numbers->at);
   for (size_t k = 0; k < numbers->count && there && numbers->at; ++k)
     read_element(run.bytes.at + k * run.stride, &element, numbers->at + k * width);
   free(run.bytes.at);

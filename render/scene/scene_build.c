@@ -1,11 +1,9 @@
 /* scene_build.c - see scene_build.h. */
 #include "scene/scene_build.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
-#include "base/array.h"
 #include "base/vector.h"
 
 /* One mesh at its place. */
@@ -39,22 +37,6 @@ static bool find_normal(const struct building *building, int vertex, double out[
   for (int r = 0; r < 3; ++r)
     out[r] = side * vector_dot(building->cofactor[r], building->mesh->normal[vertex]);
   return vector_normalise(out);
-}
-
-static enum result reserve(struct building *building, size_t vertices, size_t triangles,
-                           struct error *error) {
-  struct scene *scene = building->loading->scene;
-  int *room = building->loading->room;
-  if (vertices > INT_MAX - scene->vertices || triangles > INT_MAX - scene->triangles)
-    return result_fail(error, RESULT_BAD, "has more than %d vertices or triangles", INT_MAX);
-  int v = (int)(scene->vertices + vertices), t = (int)(scene->triangles + triangles);
-  bool good = array_reserve(&scene->position, &room[0], v, sizeof *scene->position) &&
-              array_reserve(&scene->corners, &room[1], t, sizeof *scene->corners);
-  if (good && building->loading->needs == SCENE_SURFACES)
-    good = array_reserve(&scene->normal, &room[2], v, sizeof *scene->normal) &&
-           array_reserve(&scene->uv, &room[3], v, sizeof *scene->uv) &&
-           array_reserve(&scene->material, &room[4], t, sizeof *scene->material);
-  return good ? RESULT_OK : result_no_memory(error);
 }
 
 static void add_vertex(const struct building *building, int vertex, const double *flat_normal) {
@@ -147,7 +129,7 @@ enum result scene_build(struct scene_loading *loading, const struct scene_mesh *
   find_cofactors(&building);
   if (loading->needs == SCENE_SURFACES) result = check_normals(&building, error);
   size_t vertices = building.flat ? 3 * mesh->triangles : mesh->vertices;
-  if (result == RESULT_OK) result = reserve(&building, vertices, mesh->triangles, error);
+  if (result == RESULT_OK) result = scene_reserve(loading, vertices, mesh->triangles, error);
   size_t base = loading->scene->vertices;
   for (size_t v = 0; v < mesh->vertices && !building.flat && result == RESULT_OK; ++v)
     add_vertex(&building, (int)v, NULL);

@@ -21,7 +21,7 @@ static enum result one_more(struct scene_faces *faces, void *array, int *room, i
   if (count == INT_MAX)
     return result_fail(error, RESULT_BAD, "%s: has more than %d vertices or triangles",
                        faces->loading->path, INT_MAX);
-  return array_reserve(array, room, count + 1, size) ? RESULT_OK : no_memory(faces, error);
+  return scene_grow(array, room, (size_t)count + 1, size) ? RESULT_OK : no_memory(faces, error);
 }
 
 /* z is mirrored; no coordinate is -0. */
@@ -213,25 +213,18 @@ static enum result check_normals(struct scene_faces *faces, const struct scene_c
   return faces->loading->repair ? RESULT_OK : scene_faces_fail(faces, what, error);
 }
 
-static enum result reserve_scene(struct scene_faces *faces, int vertices, int triangles,
-                                 struct error *error) {
-  struct scene *scene = faces->loading->scene;
-  int *room = faces->scene_room;
-  if (scene->vertices > (size_t)(INT_MAX - vertices) ||
-      scene->triangles > (size_t)(INT_MAX - triangles))
-    return result_fail(error, RESULT_BAD, "%s: has more than %d vertices or triangles",
-                       faces->loading->path, INT_MAX);
-  int v = (int)scene->vertices + vertices, t = (int)scene->triangles + triangles;
-  bool good =
-      array_reserve(&scene->position, &room[0], v, sizeof *scene->position) &&
-      array_reserve(&scene->corners, &room[1], t, sizeof *scene->corners) &&
-      array_reserve(&faces->vertex, &faces->vertex_room, faces->positions, sizeof *faces->vertex);
-  if (good && faces->loading->needs == SCENE_SURFACES)
-    good = array_reserve(&scene->normal, &room[2], v, sizeof *scene->normal) &&
-           array_reserve(&scene->uv, &room[3], v, sizeof *scene->uv) &&
-           array_reserve(&scene->material, &room[4], t, sizeof *scene->material) &&
-           array_reserve(&faces->made_of, &faces->made_of_room, v, sizeof *faces->made_of);
-  if (!good) return no_memory(faces, error);
+/* Room for so many more vertices and triangles, and for what is known of them. */
+static enum result reserve(struct scene_faces *faces, int vertices, int triangles,
+                           struct error *error) {
+  const struct scene *scene = faces->loading->scene;
+  enum result result = scene_reserve(faces->loading, (size_t)vertices, (size_t)triangles, error);
+  if (result != RESULT_OK) return result_at(result, error, "%s", faces->loading->path);
+  int v = (int)scene->vertices + vertices;
+  if (!array_reserve(&faces->vertex, &faces->vertex_room, faces->positions,
+                     sizeof *faces->vertex) ||
+      (faces->loading->needs == SCENE_SURFACES &&
+       !array_reserve(&faces->made_of, &faces->made_of_room, v, sizeof *faces->made_of)))
+    return no_memory(faces, error);
   while (faces->vertex_count < faces->positions) faces->vertex[faces->vertex_count++] = -1;
   return RESULT_OK;
 }
@@ -294,7 +287,7 @@ enum result scene_faces_add(struct scene_faces *faces, struct scene_corner *corn
     return drop(faces, &loading->crossing, "crosses itself; --repair drops it", error);
   if (result == RESULT_OK && loading->needs == SCENE_SURFACES)
     result = check_normals(faces, corners, count, &flat, error);
-  if (result == RESULT_OK) result = reserve_scene(faces, 3 * made, made, error);
+  if (result == RESULT_OK) result = reserve(faces, 3 * made, made, error);
   if (result != RESULT_OK) return result;
   if (add_triangles(faces, corners, made, flat) > 0) return RESULT_OK;
   return drop(faces, &loading->dropped, "has no area; --repair drops it", error);

@@ -32,7 +32,6 @@ struct scene_faces {
   int (*made_of)[2];  /* [vertices]: normal and texture coordinates */
   int (*triangle)[3]; /* of a face, by its corners */
   int vertex_count, vertex_room, made_of_room, triangle_room;
-  int scene_room[5]; /* of the scene's arrays */
 };
 
 /* Appends one of what corners name. RESULT_BAD beyond INT_MAX of them. */

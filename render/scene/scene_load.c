@@ -30,6 +30,32 @@ enum result scene_unread(struct scene_loading *loading, struct error *error, con
   return result_fail(error, RESULT_BAD, "%s, which is not supported; --repair ignores it", what);
 }
 
+bool scene_fits(size_t count, size_t size) {
+  size_t pages = (size_t)sysconf(_SC_PHYS_PAGES), page = (size_t)sysconf(_SC_PAGE_SIZE);
+  return count <= pages / 8 * page / size;
+}
+
+bool scene_grow(void *array, int *room, size_t count, size_t size) {
+  return count <= (size_t)*room || (count <= INT_MAX && scene_fits(count, size) &&
+                                    array_reserve(array, room, (int)count, size));
+}
+
+enum result scene_reserve(struct scene_loading *loading, size_t vertices, size_t triangles,
+                          struct error *error) {
+  struct scene *scene = loading->scene;
+  int *room = loading->room;
+  if (vertices > INT_MAX - scene->vertices || triangles > INT_MAX - scene->triangles)
+    return result_fail(error, RESULT_BAD, "has more than %d vertices or triangles", INT_MAX);
+  size_t v = scene->vertices + vertices, t = scene->triangles + triangles;
+  bool good = scene_grow(&scene->position, &room[0], v, sizeof *scene->position) &&
+              scene_grow(&scene->corners, &room[1], t, sizeof *scene->corners);
+  if (good && loading->needs == SCENE_SURFACES)
+    good = scene_grow(&scene->normal, &room[2], v, sizeof *scene->normal) &&
+           scene_grow(&scene->uv, &room[3], v, sizeof *scene->uv) &&
+           scene_grow(&scene->material, &room[4], t, sizeof *scene->material);
+  return good ? RESULT_OK : result_no_memory(error);
+}
+
 static enum result find_format(struct scene_loading *loading, struct error *error) {
   static const struct {
     const char *suffix;

@@ -16,7 +16,7 @@ struct scene_loading {
   enum scene_needs needs;
   bool repair;
   struct scene *scene;
-  int room[5]; /* of the scene's arrays, for scene_build.c */
+  int room[5]; /* of the scene's arrays, for scene_reserve */
   /* what was repaired */
   size_t dropped;     /* triangles without area */
   size_t crossing;    /* faces that cross themselves, dropped */
@@ -40,6 +40,17 @@ bool scene_ignore_statement(struct scene_loading *loading, const char *keyword);
 enum result gltf_load(struct scene_loading *loading, struct error *error);
 enum result scene_obj_read(struct scene_loading *loading, struct error *error);
 enum result scene_ply_read(struct scene_loading *loading, struct error *error);
+
+/* May an array be so large? Only up to an eighth of the machine's memory, so that no file, and no
+ * small one whose mesh is at many places, fills it: who does that is ended without a word. */
+bool scene_fits(size_t count, size_t size);
+
+/* array_reserve within that. */
+bool scene_grow(void *array, int *room, size_t count, size_t size);
+
+/* Makes room for so many more vertices and triangles. Refuses more than INT_MAX. */
+enum result scene_reserve(struct scene_loading *loading, size_t vertices, size_t triangles,
+                          struct error *error);
 
 /* Drops triangles that repeat another one: their corners are the same three points, in whatever
  * order. The first of them stays, and so does the order of the others. All must have an area. */
