@@ -225,12 +225,14 @@ TEST(random_outlines) {
 }
 
 /* Refused by name, and dropped where they may be: an hourglass whose halves differ, one that runs
- * around something twice, and one with a corner of another edge inside. */
+ * around something twice, one with a corner of another edge inside, and one that turns more than
+ * once around its first corner. */
 TEST(crossing_outlines) {
   static const struct outline crossing[] = {
       {4, {{0, 0}, {4, 4}, {4, 0}, {0, 2}}},
       {8, {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 4}, {0, 4}}},
       {6, {{0, 0}, {2, 2}, {4, 6}, {4, 0}, {2, 2}, {0, 4}}},
+      {7, {{0, 0}, {4, 0}, {4, 4}, {-4, 4}, {-4, -4}, {5, -4}, {5, 1}}},
   };
   for (size_t k = 0; k < sizeof crossing / sizeof *crossing; ++k) {
     const char *path = write_obj(&crossing[k], 0);
