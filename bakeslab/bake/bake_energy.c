@@ -219,7 +219,7 @@ static bool find_box(const struct planes *planes, double box[2][3]) {
 
 /* The sides of the box that have no page in their plane, half the box further out and twice as
  * wide: a wall may lie on the side, and what is inside it does not leave. */
-static void make_sides(struct planes *planes) {
+static void add_sides(struct planes *planes) {
   double box[2][3];
   if (!find_box(planes, box)) return;
   for (int side = 0; side < MOST_SIDES; ++side) {
@@ -248,7 +248,13 @@ static void make_sides(struct planes *planes) {
   }
 }
 
-static void make_planes(struct planes *planes) {
+static enum result plan_planes(const struct bake_work *work, struct planes *planes,
+                               struct error *error) {
+  *planes = (struct planes){.pages = work->slabs, .count = work->lamp->slab_count};
+  size_t most = SIDE * (size_t)planes->count + MOST_SIDES;
+  planes->baked = malloc(most * sizeof *planes->baked);
+  planes->open = malloc(most * sizeof *planes->open);
+  if (!planes->baked || !planes->open) return result_no_memory(error);
   for (int n = 0; n < SIDE * planes->count; ++n) {
     struct slab *plane = &planes->baked[n];
     int kind = n / planes->count;
@@ -258,21 +264,23 @@ static void make_planes(struct planes *planes) {
     planes->open[n] = *plane;
     for (int k = 0; k < 4; ++k) planes->open[n].st_window[k] = k % 2 ? INFINITY : -INFINITY;
   }
+  add_sides(planes);
+  return RESULT_OK;
+}
+
+static void free_planes(struct planes *planes) {
+  free(planes->baked);
+  free(planes->open);
 }
 
 static enum result probe_around(const struct bake_work *work, struct bake_energy *energy,
                                 struct bake_report *report, struct error *error) {
   int pages = work->lamp->slab_count;
-  struct planes planes = {.pages = work->slabs, .count = pages};
+  struct planes planes;
   struct bake_work around = *work;
   struct lamp lamp = *work->lamp;
   struct probe_bake bake = {0};
-  size_t most = SIDE * (size_t)pages + MOST_SIDES;
-  planes.baked = malloc(most * sizeof *planes.baked);
-  planes.open = malloc(most * sizeof *planes.open);
-  enum result result = planes.baked && planes.open ? RESULT_OK : result_no_memory(error);
-  if (result == RESULT_OK) make_planes(&planes);
-  if (result == RESULT_OK) make_sides(&planes);
+  enum result result = plan_planes(work, &planes, error);
   lamp.slab_count = SIDE * pages + planes.sides;
   around.lamp = &lamp;
   if (result == RESULT_OK)
@@ -280,8 +288,7 @@ static enum result probe_around(const struct bake_work *work, struct bake_energy
   for (int n = 0; n < bake.count && result == RESULT_OK; ++n)
     add_plane(&planes, &bake.pages[n], n, n < WIDE * pages ? energy->window : energy->beside);
   probe_bake_free(&bake);
-  free(planes.baked);
-  free(planes.open);
+  free_planes(&planes);
   return result;
 }
 
@@ -368,12 +375,16 @@ static void warn(const struct bake_work *work, const struct bake_energy *energy,
                      : "enlarge the windows in Canned_Slab, or bake with --window auto");
 }
 
-double bake_energy_rays(const struct lamp *lamp) {
-  double around =
-      POSITIONS * POSITIONS * (NEAR_DIRECTIONS * NEAR_DIRECTIONS + DIRECTIONS * DIRECTIONS) +
-      WIDE_POSITIONS * WIDE_POSITIONS * DIRECTIONS * DIRECTIONS;
-  double dark = DARK_POSITIONS * DARK_POSITIONS * DARK_DIRECTIONS * DARK_DIRECTIONS;
-  return lamp->slab_count * (around + (lamp->bulbs ? dark : 0));
+enum result bake_energy_cost(const struct bake_work *work, int *bakes, double *rays,
+                             struct error *error) {
+  struct planes planes;
+  enum result result = plan_planes(work, &planes, error);
+  *bakes = work->lamp->bulbs ? 2 : 1;
+  *rays = work->lamp->bulbs ? work->lamp->slab_count * pow(DARK_POSITIONS * DARK_DIRECTIONS, 2) : 0;
+  for (int n = 0; n < SIDE * planes.count + planes.sides && result == RESULT_OK; ++n)
+    *rays += (double)slab_sample_count(&planes.baked[n]);
+  free_planes(&planes);
+  return result;
 }
 
 enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,

@@ -23,8 +23,9 @@ struct bake_energy {
   char line[BAKE_ENERGY_LINE]; /* all that in words */
 };
 
-/* The rays of the small bakes that it takes, but for those beside the pages' box. */
-double bake_energy_rays(const struct lamp *lamp);
+/* What that takes: small bakes, of a POV-Ray process each, and their rays. */
+enum result bake_energy_cost(const struct bake_work *work, int *bakes, double *rays,
+                             struct error *error);
 
 /* Weighs the work's finished pages, and warns in the report where the lamp gives more light than
  * its bulbs, beyond the noise of the bake, or where the pages miss light. */

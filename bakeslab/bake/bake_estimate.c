@@ -2,7 +2,9 @@
  *
  * 1. Two small bakes of different numbers of rays give the CPU time of a process before its first
  *    ray (parsing, photons, most of radiosity's samples) and of each ray.
- * 2. The batches are as full as bake_plan.c makes them. The balance (bake_energy.h) follows.
+ * 2. The time is that until the slab is there, on a machine that does nothing else: of the rounds'
+ *    batches (bake_plan.h), as many at a time as there are jobs, and of the balance after them
+ *    (bake_energy.h). A process is idle for a while, and after each frame.
  * 3. Memory is that of the sums (bake_sum.c) and the samples, and of POV-Ray for each job.
  * 4. The small bakes, written as the slab will be, give the bytes of a row of t and of a sample:
  *    dark and smooth lamps are packed ten times as tight as noisy ones. */
@@ -13,17 +15,21 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "bake/bake_energy.h"
 #include "base/files.h"
+#include "batch/bake_rounds.h"
 #include "file/slab_file.h"
 #include "probe/probe_bake.h"
 
-enum { SUM_BYTES = 60, BATCH_RAYS = 1 << 20 };
-/* Of the small bakes: positions, and directions of the first and the second, along an axis. */
-enum { POSITIONS = 4, FEW = 16, MANY = 64, PROBE_RAYS = 2 };
+enum { SUM_BYTES = 80 };
+/* Of the small bakes, along an axis: positions of the first, and of the second of a lamp of one
+ * page; directions of both. A ray of the second costs about what one of the bake does: with fewer,
+ * radiosity would take new samples for most of them. */
+enum { FEW_POSITIONS = 4, MOST_POSITIONS = 8, FEW = 16, MANY = 64, PROBE_RAYS = 2 };
 static const double program_bytes = 10e6, povray_bytes = 20e6, povray_ray_bytes = 45,
-                    idle_seconds = 0.5;
+                    idle_seconds = 0.5, frame_seconds = 0.25;
 
 /* The bytes of a view in a file of such pages. */
 static enum result measure_bytes(const struct bake_work *work, const struct probe_bake *bake,
@@ -38,7 +44,11 @@ static enum result measure_bytes(const struct bake_work *work, const struct prob
                 : result_no_memory(error);
   if (result == RESULT_OK && stat(path, &file) != 0)
     result = result_fail(error, RESULT_IO, "%s: cannot read", path);
-  if (result == RESULT_OK) *bytes = (double)file.st_size / (POSITIONS * POSITIONS * bake->count);
+  if (result == RESULT_OK)
+    *bytes = (double)file.st_size /
+             ((double)slab_sample_count(bake->pages) /
+              (bake->pages->samples[SLAB_S] * bake->pages->samples[SLAB_T])) /
+             bake->count;
   files_remove_tree(scratch);
 out:
   free(path);
@@ -46,41 +56,63 @@ out:
   return result;
 }
 
-static enum result measure(const struct bake_work *work, int directions, double *cpu, double *rays,
-                           double *bytes, struct bake_report *report, struct error *error) {
-  const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, directions, directions};
+static enum result measure(const struct bake_work *work, int positions, int directions, double *cpu,
+                           double *rays, double *bytes, struct bake_report *report,
+                           struct error *error) {
+  const int samples[SLAB_AXES] = {positions, positions, directions, directions};
   struct probe_bake bake = {0};
   enum result result =
       probe_bake(work, work->slabs, work->look.effects, samples, PROBE_RAYS, &bake, report, error);
   if (result == RESULT_OK) result = measure_bytes(work, &bake, bytes, error);
   *cpu = bake.cpu;
   probe_bake_free(&bake);
-  *rays =
-      (double)PROBE_RAYS * POSITIONS * POSITIONS * directions * directions * work->lamp->slab_count;
+  *rays = PROBE_RAYS * pow((double)positions * directions, 2) * work->lamp->slab_count;
+  return result;
+}
+
+/* Time and memory. The next process starts while the one before ends: there are two a job. */
+static enum result estimate_time(const struct bake_work *work, const double cpu[2],
+                                 const double rays[2], struct bake_estimate *estimate,
+                                 struct error *error) {
+  const struct bake_options *options = work->options;
+  double per_ray = fmax(0, (cpu[1] - cpu[0]) / (rays[1] - rays[0]));
+  double first = fmax(0, cpu[0] - per_ray * rays[0]), cores = (double)sysconf(_SC_NPROCESSORS_ONLN);
+  int round[2] = {bake_rounds_first(&work->effort), 0}, balances;
+  round[1] = work->effort.rays - round[0];
+  estimate->memory = program_bytes + SUM_BYTES * estimate->samples;
+  for (int n = 0; n < 2 && round[n] > 0; ++n) {
+    double batches, frames, round_rays = estimate->samples * round[n];
+    bake_plan_count(work->slabs, work->lamp->slab_count, round[n], work->look.form, &batches,
+                    &frames);
+    double jobs = fmin(options->jobs, batches);
+    double time = (batches * first + round_rays * per_ray) / fmin(jobs, fmax(1, cores)) +
+                  (batches * idle_seconds + frames * frame_seconds) / jobs;
+    estimate->seconds += time / options->shards;
+    estimate->memory = fmax(estimate->memory, program_bytes + SUM_BYTES * estimate->samples +
+                                                  jobs * (fmin(2, batches / jobs) * povray_bytes +
+                                                          povray_ray_bytes * round_rays / batches));
+  }
+  double balance_rays;
+  enum result result = bake_energy_cost(work, &balances, &balance_rays, error);
+  estimate->seconds += balances * (first + idle_seconds) + balance_rays * per_ray;
   return result;
 }
 
 enum result bake_estimate(const struct bake_work *work, struct bake_estimate *estimate,
                           struct bake_report *report, struct error *error) {
-  const struct bake_options *options = work->options;
   double cpu[2], rays[2], bytes[2];
+  int positions =
+      (int)fmax(FEW_POSITIONS, round(MOST_POSITIONS / sqrt((double)work->lamp->slab_count)));
   *estimate = (struct bake_estimate){0};
   for (int n = 0; n < work->lamp->slab_count; ++n)
     estimate->samples += (double)slab_sample_count(&work->slabs[n]);
-  estimate->rays = estimate->samples * options->rays;
-  enum result result = measure(work, FEW, &cpu[0], &rays[0], &bytes[0], report, error);
+  estimate->rays = estimate->samples * work->effort.rays;
+  enum result result =
+      measure(work, FEW_POSITIONS, FEW, &cpu[0], &rays[0], &bytes[0], report, error);
   if (result == RESULT_OK)
-    result = measure(work, MANY, &cpu[1], &rays[1], &bytes[1], report, error);
+    result = measure(work, positions, MANY, &cpu[1], &rays[1], &bytes[1], report, error);
   if (result != RESULT_OK) return result;
-  double per_ray = fmax(0, (cpu[1] - cpu[0]) / (rays[1] - rays[0]));
-  double first = fmax(0, cpu[0] - per_ray * rays[0]);
-  double batches = ceil(estimate->rays / BATCH_RAYS), jobs = fmin(options->jobs, batches);
-  estimate->seconds =
-      (batches * (first + idle_seconds) + estimate->rays * per_ray) / jobs / options->shards;
-  /* The balance comes after it: two small bakes of a process each. */
-  estimate->seconds += 2 * (first + idle_seconds) + bake_energy_rays(work->lamp) * per_ray;
-  estimate->memory = program_bytes + SUM_BYTES * estimate->samples +
-                     jobs * (povray_bytes + povray_ray_bytes * fmin(BATCH_RAYS, estimate->rays));
+  result = estimate_time(work, cpu, rays, estimate, error);
   double sample_bytes =
       fmax(0, (bytes[1] - bytes[0] * MANY / FEW) / ((double)MANY * MANY - MANY * FEW));
   double row_bytes = fmax(0, bytes[1] - sample_bytes * MANY * MANY) / MANY;

@@ -9,7 +9,7 @@ enum { BAKE_ESTIMATE_LINE = 400 };
 
 struct bake_estimate {
   double samples, rays;
-  double seconds;       /* on this machine, by two small bakes */
+  double seconds;       /* to wait for the slab, if the machine does nothing else */
   double memory, bytes; /* of all processes at once; of the file */
 };
 

@@ -1,6 +1,7 @@
 #include "batch/bake_plan.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -172,13 +173,18 @@ static size_t batch_cost(const struct bake_batch *batch) {
   return batch->rays + CAMERA_COST * batch->count;
 }
 
+/* The batches that so much is cut into. */
+static size_t cut(size_t cost) {
+  size_t batches = (cost + BATCH_COST - 1) / BATCH_COST;
+  return batches > 1 ? (batches + BATCH_EVEN - 1) / BATCH_EVEN * BATCH_EVEN : batches;
+}
+
 /* The cost at which a batch is full. */
 static size_t full_cost(const struct bake_round *round) {
   struct bake_batch all = {.count = round->unit_count};
   for (size_t unit = 0; unit < round->unit_count; ++unit)
     all.rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
-  size_t batches = (batch_cost(&all) + BATCH_COST - 1) / BATCH_COST;
-  if (batches > 1) batches = (batches + BATCH_EVEN - 1) / BATCH_EVEN * BATCH_EVEN;
+  size_t batches = cut(batch_cost(&all));
   return batches ? (batch_cost(&all) + batches - 1) / batches : 1;
 }
 
@@ -290,6 +296,25 @@ enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bak
       !add_passes(round, 0, 0, passes, true))
     return result_no_memory(error);
   return cut_batches(round, form, error);
+}
+
+static double parts(int samples) {
+  return ceil((double)samples / MESH);
+}
+
+void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_form form,
+                     double *batches, double *frames) {
+  double cameras = 0, rays = 0;
+  for (int page = 0; page < pages; ++page) {
+    const int *n = slabs[page].samples;
+    double positions = (double)n[SLAB_U] * n[SLAB_V], directions = (double)n[SLAB_S] * n[SLAB_T];
+    rays += passes * positions * directions;
+    cameras += passes * (form == BAKE_TRANSPOSED ? directions : positions) *
+               (form == BAKE_MESH ? parts(n[SLAB_S]) * parts(n[SLAB_T]) : 1);
+  }
+  *frames = form == BAKE_MESH ? 0 : cameras;
+  *batches =
+      fmax((double)cut((size_t)(rays + CAMERA_COST * cameras)), ceil(*frames / BATCH_FRAMES));
 }
 
 enum result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, int pilot,

@@ -58,6 +58,11 @@ void bake_round_free(struct bake_round *round);
 enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
                             struct bake_round *round, struct error *error);
 
+/* About how many batches the pilot has, or a rest of as many passes everywhere; and how many frames
+ * of animations in all. */
+void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_form form,
+                     double *batches, double *frames);
+
 /* Passes for each tile (bake_allocate.c): `budget` rays a sample on average, between
  * pilot and most, in proportion to the tile's deviation (Neyman's allocation), each the
  * pilot times a power of two, or most. deviation[] is the standard deviation of the mean

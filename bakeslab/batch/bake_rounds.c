@@ -22,6 +22,10 @@ struct bake_effort bake_effort_of(const struct bake_options *options) {
                               .shards = options->shards};
 }
 
+int bake_rounds_first(const struct bake_effort *effort) {
+  return effort->adaptive ? PILOT : effort->rays;
+}
+
 /* Steps 3 and 4. */
 static enum result plan_rest(const struct bake_work *work, struct bake_rounds *rounds,
                              struct error *error) {
@@ -46,7 +50,7 @@ enum result bake_rounds_run(const struct bake_work *work, const char *label,
                             struct error *error) {
   const struct bake_effort *effort = &work->effort;
   bool adaptive = effort->adaptive, shard = effort->shards > 1;
-  int first = adaptive ? PILOT : effort->rays, most = adaptive ? effort->rays_max : first;
+  int first = bake_rounds_first(effort), most = adaptive ? effort->rays_max : first;
   *rounds = (struct bake_rounds){0};
   enum result result = bake_tiles_init(&rounds->tiles, work->slabs, work->lamp->slab_count,
                                        work->look.form == BAKE_TRANSPOSED, error);

@@ -14,6 +14,9 @@ struct bake_rounds {
 /* What the user asks for. */
 struct bake_effort bake_effort_of(const struct bake_options *options);
 
+/* Passes everywhere before the second round; all of them, where there is none. */
+int bake_rounds_first(const struct bake_effort *effort);
+
 /* Renders and sums work->slabs, showing progress under the label. Free the rounds with
  * bake_rounds_free in any case. */
 enum result bake_rounds_run(const struct bake_work *work, const char *label,

@@ -93,8 +93,9 @@ static const struct argp_option options[] = {
      "folder, and has no network",
      4},
     {"dry-run", KEY(dry_run), 0, 0,
-     "tell samples, rays, and estimates of time, memory and file size, and stop there. Small bakes "
-     "that this takes stay in SLAB.partial for the bake itself",
+     "tell samples, rays, and estimates, and stop there: the time to wait for the slab, if the "
+     "machine does nothing else, memory, and file size. Small bakes that this takes stay in "
+     "SLAB.partial for the bake itself",
      4},
     {"yes", KEY(ask), 0, 0, "begin a bake of more than an hour on a terminal too", 4},
     {"strict", KEY(strict), 0, 0,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bakes.h"
+#include "batch/bake_plan.h"
 
 static const struct bakes_frame frame = {{0, 0, 0}, {2, 0, 0},          {0, 1, 0},
                                          {0, 0, 1}, {-1, 1, -0.8, 0.8}, 0};
@@ -222,6 +223,28 @@ TEST(test_no_noise) {
   assert_true(fabs((double)slab.rgb[0] / 0.3 - 1) < 0x1p-11);
   assert_true(bakes_provenance(&slab, "rays", NULL) < 5); /* the pilot was enough */
   slab_free(&slab);
+}
+
+/* The plan that is told counts batches and frames as the bake cuts them. */
+TEST(test_counted) {
+  static const int samples[][SLAB_AXES] = {
+      {4, 4, 10, 10}, {16, 16, 64, 64}, {30, 20, 150, 70}, {64, 48, 4, 8}};
+  for (size_t k = 0; k < sizeof samples / sizeof *samples; ++k)
+    for (int form = BAKE_MESH; form <= BAKE_TRANSPOSED; ++form) {
+      struct slab slabs[2] = {{.st_distance = INFINITY}, {.st_distance = INFINITY}};
+      struct bake_tiles tiles;
+      struct bake_round round;
+      double batches, frames;
+      for (int n = 0; n < 2; ++n) memcpy(slabs[n].samples, samples[k], sizeof samples[k]);
+      bake_plan_count(slabs, 2, 6, (enum bake_form)form, &batches, &frames);
+      assert_int_equal(bake_tiles_init(&tiles, slabs, 2, form == BAKE_TRANSPOSED, NULL), RESULT_OK);
+      assert_int_equal(bake_plan_pilot(&tiles, 6, (enum bake_form)form, &round, NULL), RESULT_OK);
+      /* The last one may be short, or a few units more. */
+      assert_true(fabs(batches - (double)round.batch_count) <= 1 + 0.1 * batches);
+      assert_true(frames == (form == BAKE_MESH ? 0 : (double)round.unit_count));
+      bake_round_free(&round);
+      bake_tiles_free(&tiles);
+    }
 }
 
 int main(void) {
