@@ -243,7 +243,7 @@ static enum result find_housing(const struct bake_work *work, struct bake_report
   else if (errno == ENOMEM)
     result = result_no_memory(error);
   if (*housing && result == RESULT_OK)
-    result = housing_parses(work->povray, work->source, *housing, scratch, error);
+    result = housing_parses(work->povray, work->source, *housing, scratch, work->stop, error);
   if (result == RESULT_BAD) {
     warnings_add(&report->warnings,
                  "Canned_Housing is left out of the slab, since it does not parse with only the "
@@ -312,7 +312,7 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
                            .look.effects = &state.effects,
                            .stop = stop};
   enum result result = slab_file_check_target(options->output, options->precision, error);
-  if (result == RESULT_OK) result = povray_find(options->povray, &state.povray, error);
+  if (result == RESULT_OK) result = povray_find(options->povray, stop, &state.povray, error);
   state.povray.sandbox = options->sandbox;
   if (result == RESULT_OK && options->sandbox) result = sandbox_check(error);
   if (result == RESULT_OK)
@@ -322,6 +322,8 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   if (result == RESULT_OK) result = prepare(&work, &state, report, error);
   if (result == RESULT_OK) result = be_strict(&work, report, error);
   if (result == RESULT_OK) result = announce(&work, &state, report, error);
+  /* Refused before it began, it leaves nothing that was not there. */
+  bool refused = result == RESULT_BAD && state.store.fresh;
   if (result == RESULT_OK && !options->dry_run)
     result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   /* A shard leaves the slab to the run without --shard. */
@@ -332,7 +334,7 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
     result = lamp_depend(&state.lamp.reads, state.source.path, options->output, options->depend,
                          false, error);
   if (result == RESULT_OK && report->assembled) result = write_slab(&work, &state, report, error);
-  bake_store_close(&state.store, result == RESULT_OK && report->assembled);
+  bake_store_close(&state.store, refused || (result == RESULT_OK && report->assembled));
   bake_rounds_free(&state.rounds);
   free(state.origin.housing);
   lamp_free(&state.lamp);

@@ -11,6 +11,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 /* A descriptor for a stream of struct process that none of the standard ones overwrites. */
@@ -70,12 +71,12 @@ enum result process_start(struct process *process, struct error *error) {
 enum result process_wait(struct process *process, struct error *error) {
   const char *name = process->words[0], *said = process->said;
   int status = 0;
-  while (waitpid(process->pid, &status, 0) < 0)
-    if (errno != EINTR) return result_fail(error, RESULT_IO, "%s: %s", name, strerror(errno));
+  enum result result = process_await(process->pid, process->stop, &status, error);
   process->exit = process_exit(status);
   ssize_t got = read(process->said_end, process->said, sizeof process->said - 1);
   process->said[got > 0 ? got : 0] = 0;
   if (process->said_end >= 0) close(process->said_end);
+  if (result != RESULT_OK) return result;
   int number = process->exit - PROCESS_SIGNAL;
   if (process->exit == 0) return RESULT_OK;
   if (number > 0)
@@ -89,6 +90,27 @@ enum result process_wait(struct process *process, struct error *error) {
 enum result process_run(struct process *process, struct error *error) {
   enum result result = process_start(process, error);
   return result == RESULT_OK ? process_wait(process, error) : result;
+}
+
+void process_kill(pid_t pid) {
+  kill(-pid, SIGKILL); /* not there yet where it has just been started */
+  kill(pid, SIGKILL);
+}
+
+enum result process_await(pid_t pid, const volatile sig_atomic_t *stop, int *status,
+                          struct error *error) {
+  bool stopped = false;
+  pid_t ended;
+  while ((ended = waitpid(pid, status, stop ? WNOHANG : 0)) != pid) {
+    if (ended < 0 && errno != EINTR)
+      return result_fail(error, RESULT_IO, "waitpid: %s", strerror(errno));
+    if (stop && *stop && !stopped) {
+      stopped = true;
+      process_kill(pid);
+    }
+    if (stop) nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+  }
+  return stopped ? result_fail(error, RESULT_STOPPED, "interrupted") : RESULT_OK;
 }
 
 int process_exit(int status) {

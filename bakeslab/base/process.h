@@ -3,6 +3,7 @@
 #ifndef PROCESS_H
 #define PROCESS_H
 
+#include <signal.h>
 #include <sys/types.h>
 
 #include "base/result.h"
@@ -27,6 +28,7 @@ struct process {
   int in, out, errors;            /* its standard streams */
   size_t most_memory;             /* bytes of address space that it may have; 0: no limit */
   size_t most_written;            /* bytes of a file that it may write; 0: no limit */
+  const volatile sig_atomic_t *stop; /* set by a signal handler: process_wait ends it; or NULL */
 
   /* filled in: */
   pid_t pid;
@@ -39,11 +41,19 @@ struct process {
 enum result process_start(struct process *process, struct error *error);
 
 /* Waits for its end. Unless its exit status is 0: RESULT_IO with the first line of `said` that has
- * words, or "PROGRAM was killed by signal N (name)" or "PROGRAM failed with exit status N". */
+ * words, or "PROGRAM was killed by signal N (name)" or "PROGRAM failed with exit status N";
+ * RESULT_STOPPED where it was stopped. */
 enum result process_wait(struct process *process, struct error *error);
 
 /* Both. */
 enum result process_run(struct process *process, struct error *error);
+
+/* Ends a process and all of its group: a wrapper's POV-Ray too. To be waited for. */
+void process_kill(pid_t pid);
+
+/* Waits for the end of a process, and kills it once `stop` (or NULL) is set: RESULT_STOPPED. */
+enum result process_await(pid_t pid, const volatile sig_atomic_t *stop, int *status,
+                          struct error *error);
 
 /* The exit status in what waitpid tells. */
 int process_exit(int status);

@@ -180,12 +180,14 @@ static enum result end_batch(struct run *run, struct process *process, int statu
   const struct bake_batch *batch = &run->round->batches[process->batch];
   enum result result = povray_finish(&process->job, status, error);
   if (result != RESULT_OK) lamp_source_rename(work->source, error);
+  bool crashed = result == RESULT_IO;
   if (result == RESULT_OK) result = read_batch(run, process->batch, &process->job, error);
   if (result == RESULT_OK) count_work(run, process->scratch);
   if (result == RESULT_OK && run->photons_lost[0] && work->look.effects->named)
     result =
         result_fail(error, RESULT_BAD, "caustics: %s; " BAKE_PHOTONS_ADVICE, run->photons_lost);
-  if (result == RESULT_BAD) result_fail(error, result, "%s: %s", work->options->lamp, error->text);
+  if (result == RESULT_BAD || crashed)
+    result_fail(error, result, "%s: %s", work->options->lamp, error->text);
   if (result == RESULT_OK) result = lamp_reads_unchanged(&work->lamp->reads, error);
   if (result == RESULT_OK)
     result = bake_store_commit(work->store, process->scratch, process->key, error);
@@ -195,10 +197,11 @@ static enum result end_batch(struct run *run, struct process *process, int statu
 }
 
 static void kill_all(struct run *run) {
+  for (int n = 0; n < run->slots; ++n) /* all of them before any is waited for */
+    if (run->processes[n].state != IDLE) povray_kill(run->processes[n].pid);
   for (int n = 0; n < run->slots; ++n) {
     struct process *process = &run->processes[n];
     if (process->state == IDLE) continue;
-    kill(process->pid, SIGKILL);
     while (waitpid(process->pid, NULL, 0) < 0 && errno == EINTR) continue;
     release(process, true);
   }

@@ -37,6 +37,16 @@ static void sweep(const char *directory, const char *beginning) {
   closedir(list);
 }
 
+/* Whether there is nothing but the lock. */
+static bool is_empty(const char *directory) {
+  DIR *list = opendir(directory);
+  bool empty = true;
+  for (struct dirent *entry; list && (entry = readdir(list));)
+    empty &= entry->d_name[0] == '.' || !strcmp(entry->d_name, lock_name);
+  if (list) closedir(list);
+  return empty;
+}
+
 /* Whether the lock that we hold is still the one in the folder: who held it before us may have
  * removed both when it was done, and somebody else made new ones. */
 static bool is_current(int lock, const char *path) {
@@ -94,17 +104,8 @@ enum result bake_store_open(const char *output, bool shared, struct bake_store *
                  : result_fail(error, RESULT_IO, "%s: others keep removing it", path);
   free(path);
   if (result == RESULT_OK && !shared) sweep(store->directory, scratch_mark);
+  store->fresh = result == RESULT_OK && is_empty(store->directory);
   return result;
-}
-
-/* Whether there is anything but the lock. */
-static bool is_empty(const char *directory) {
-  DIR *list = opendir(directory);
-  bool empty = true;
-  for (struct dirent *entry; list && (entry = readdir(list));)
-    empty &= entry->d_name[0] == '.' || !strcmp(entry->d_name, lock_name);
-  if (list) closedir(list);
-  return empty;
 }
 
 /* Whether nobody else has the store, nor gets it before it is closed. Whoever shares it lets go

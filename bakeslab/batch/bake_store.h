@@ -15,6 +15,7 @@
 struct bake_store {
   char *directory;
   int lock;
+  bool fresh; /* nothing was in it when it was opened */
 };
 
 /* Opens or makes the store beside the output. Shards share it; a bake that is to

@@ -209,12 +209,14 @@ bool housing_is_harmless(const char *text) {
 }
 
 enum result housing_parses(const struct povray *povray, const struct lamp_source *source,
-                           const char *housing, const char *directory, struct error *error) {
+                           const char *housing, const char *directory,
+                           const volatile sig_atomic_t *stop, struct error *error) {
   struct povray_job job = {.directory = directory,
                            .width = 4,
                            .height = 4,
                            .frames = 1,
-                           .environment = lamp_without_highlights};
+                           .environment = lamp_without_highlights,
+                           .stop = stop};
   char *scene = NULL;
   if (asprintf(&scene,
                "#version 3.7;\n#macro Housing()\n%s\n#end\nobject { Housing() }\n"

@@ -19,8 +19,9 @@ char *housing_find(const char *script); /* NULL and errno ENOMEM: no memory */
 bool housing_is_harmless(const char *text);
 
 /* RESULT_BAD: the text does not parse by itself. Renders a tiny scene in `directory`, which is made
- * and removed. */
+ * and removed; `stop` as for povray_run. */
 enum result housing_parses(const struct povray *povray, const struct lamp_source *source,
-                           const char *housing, const char *directory, struct error *error);
+                           const char *housing, const char *directory,
+                           const volatile sig_atomic_t *stop, struct error *error);
 
 #endif

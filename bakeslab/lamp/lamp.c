@@ -116,13 +116,15 @@ enum result lamp_try(const struct povray *povray, const struct lamp_source *sour
   if (result == RESULT_OK) {
     result = run_listing(povray, &job, error);
     if (result != RESULT_OK) lamp_source_rename(source, error);
-    if (result == RESULT_BAD) result_fail(error, result, "%s: %s", source->script, error->text);
+    if (result == RESULT_BAD || result == RESULT_IO)
+      result_fail(error, result, "%s: %s", source->script, error->text);
     if (result == RESULT_STOPPED)
       result_fail(error, result, "interrupted while POV-Ray was trying the script");
   }
+  if (result != RESULT_OK) goto out;
   lamp->own_radiosity = povray_statistic(directory, "Radiosity samples calculated:") >= 0;
   double lights = povray_statistic(directory, "Light Sources:");
-  if (result == RESULT_OK) result = read_declarations(source, directory, lamp, error);
+  result = read_declarations(source, directory, lamp, error);
   lamp->all_lights = lights > 0 ? (int)lights : 0;
   if (result == RESULT_OK)
     result = lamp_reads_collect(directory, source->path, source->script, &lamp->reads, error);
@@ -133,6 +135,7 @@ enum result lamp_try(const struct povray *povray, const struct lamp_source *sour
                          "%s: has fog, or media in all of space, which would be baked with the "
                          "lamp; keep it for previews: #ifndef (Canned_Baking) fog { ... } #end",
                          source->script);
+out:
   picture_free(&picture);
   files_remove_tree(directory);
   return result;

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/files.h"
@@ -17,7 +15,8 @@
 #include "povray/povray_log.h"
 #include "povray/sandbox.h"
 
-enum result povray_find(const char *program, struct povray *povray, struct error *error) {
+enum result povray_find(const char *program, const volatile sig_atomic_t *stop,
+                        struct povray *povray, struct error *error) {
   static const char product[] = "POV-Ray ";
   *povray = (struct povray){0};
   if (strlen(program) >= sizeof povray->program)
@@ -28,10 +27,16 @@ enum result povray_find(const char *program, struct povray *povray, struct error
   if (path && strlen(path) < sizeof povray->program) strcpy(povray->program, path);
   free(path);
   const char *const words[] = {program, "--version", NULL};
-  struct process process = {
-      .words = words, .in = PROCESS_NOTHING, .out = PROCESS_SAID, .errors = PROCESS_SAID};
+  struct process process = {.words = words,
+                            .in = PROCESS_NOTHING,
+                            .out = PROCESS_SAID,
+                            .errors = PROCESS_SAID,
+                            .stop = stop};
   struct error why;
-  if (process_run(&process, &why) != RESULT_OK && process.exit == PROCESS_MISSING)
+  enum result result = process_run(&process, &why);
+  if (result == RESULT_STOPPED)
+    return result_fail(error, result, "interrupted while %s was asked for its version", program);
+  if (result != RESULT_OK && process.exit == PROCESS_MISSING)
     return result_fail(error, RESULT_IO,
                        "%s; install POV-Ray 3.7 (Debian: apt install povray) or name it with "
                        "--povray",
@@ -135,6 +140,10 @@ enum result povray_start(const struct povray *povray, const struct povray_job *j
   return result;
 }
 
+void povray_kill(pid_t pid) {
+  process_kill(pid);
+}
+
 static enum result report_log(const struct povray_job *job, struct error *error) {
   char reason[900];
   povray_log_reason(job->directory, reason, sizeof reason);
@@ -166,22 +175,11 @@ enum result povray_finish(const struct povray_job *job, int status, struct error
 
 enum result povray_run(const struct povray *povray, const struct povray_job *job,
                        struct error *error) {
-  pid_t pid, ended;
-  enum result result = povray_start(povray, job, &pid, error);
-  if (result != RESULT_OK) return result;
+  pid_t pid;
   int status = 0;
-  bool stopped = false;
-  while ((ended = waitpid(pid, &status, WNOHANG)) != pid) {
-    if (ended < 0 && errno != EINTR)
-      return result_fail(error, RESULT_IO, "waitpid: %s", strerror(errno));
-    if (job->stop && *job->stop && !stopped) {
-      stopped = true;
-      kill(pid, SIGKILL);
-    }
-    nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
-  }
-  if (stopped) return result_fail(error, RESULT_STOPPED, "interrupted");
-  return povray_finish(job, status, error);
+  enum result result = povray_start(povray, job, &pid, error);
+  if (result == RESULT_OK) result = process_await(pid, job->stop, &status, error);
+  return result == RESULT_OK ? povray_finish(job, status, error) : result;
 }
 
 double povray_progress(const struct povray_job *job) {

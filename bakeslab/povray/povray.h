@@ -40,12 +40,17 @@ struct povray_job {
   const volatile sig_atomic_t *stop; /* set by a signal handler: povray_run ends; or NULL */
 };
 
-/* Asks the program for its version; refuses what is not POV-Ray 3.7 or 3.8. */
-enum result povray_find(const char *program, struct povray *povray, struct error *error);
+/* Asks the program for its version (`stop` as in struct povray_job); refuses what is not
+ * POV-Ray 3.7 or 3.8. */
+enum result povray_find(const char *program, const volatile sig_atomic_t *stop,
+                        struct povray *povray, struct error *error);
 
 /* Writes render.ini and starts the process. It dies with its parent. */
 enum result povray_start(const struct povray *povray, const struct povray_job *job, pid_t *pid,
                          struct error *error);
+
+/* Ends a process, and what a wrapper has started. To be waited for. */
+void povray_kill(pid_t pid);
 
 /* Judges a process that has ended with `status` (of waitpid): RESULT_OK, or
  * POV-Ray's own error line, in which "scene.pov" and link names are kept. */

@@ -24,11 +24,16 @@ static void note_line(const char *list, const char *mark, const char *path) {
   busy = 0;
 }
 
+/* The process has read a scene: it is POV-Ray. What a wrapper writes is none of the script's. */
+static volatile int scene_read;
+
 static void note(const char *path, int written) {
   const char *list = getenv("CANNED_READS");
   if (!list || busy) return;
   char *real = realpath(path, NULL);
-  if (real) note_line(list, written ? ">" : "", real);
+  const char *name = real ? strrchr(real, '/') : NULL;
+  if (name && !written && !strcmp(name, "/scene.pov")) scene_read = 1;
+  if (real && (scene_read || !written)) note_line(list, written ? ">" : "", real);
   free(real);
 }
 

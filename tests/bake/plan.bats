@@ -13,9 +13,9 @@ setup() { bake_setup; }
   echo "$output"
   [ "$status" -eq 1 ]
   [[ $output == *"flat.pov: the bake may take more than an hour; say --yes to begin it"* ]]
-  [ ! -e long.tif ]
+  [ ! -e long.tif ] && [ ! -e long.tif.partial ]
   run timeout 60 script -qec "$long --dry-run" /dev/null
-  [ "$status" -eq 0 ]
+  [ "$status" -eq 0 ] && [ -d long.tif.partial ]
   # With --yes it begins: after some seconds it is still at work.
   run timeout 8 script -qec "$long --yes" /dev/null
   [ "$status" -eq 124 ]

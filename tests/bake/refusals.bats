@@ -50,6 +50,12 @@ box { 0, 1 pigment { image_map { png "nothing.png" } } }'
   flat_lamp endless.pov '#while (1) #end'
   refused 1 'endless.pov: not done within --timeout 1: interrupted while POV-Ray was trying the script' x.tif \
     small endless.pov -o x.tif --timeout 1
+  printf '#!/bin/sh\nexec sleep 1000\n' >hangs
+  printf '#!/bin/sh\n[ "$1" = --version ] && exec povray "$@"\nkill -ABRT $$\n' >crashes
+  chmod +x hangs crashes
+  refused 1 'flat.pov: not done within --timeout 1: interrupted while .*hangs was asked' x.tif \
+    small flat.pov -o x.tif --timeout 1 --povray ./hangs
+  refused 1 'flat.pov: POV-Ray was killed by signal 6' x.tif small flat.pov -o x.tif --povray ./crashes
   flat_lamp writes.pov "#fopen F \"long.txt\" write
 #declare Line = \"0123456789012345678901234567890123456789012345678901234567890123456789\";
 #for (K, 1, 4) #declare Line = concat(Line, Line, Line, Line); #end

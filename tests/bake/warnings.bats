@@ -85,6 +85,11 @@ wall='box { <-9, -9, -2.1>, <9, 9, -2> pigment { rgb 0.8 } finish { diffuse 1 } 
 #write (F, \"1\")
 #fclose F"
   [ "$(grep -c 'writes files (first.txt is the first)' <<<"$output")" -eq 1 ]
+  # What POV-Ray's wrapper writes is none of the script's.
+  printf '#!/bin/sh\necho run >>"%s/log.txt"\nexec povray "$@"\n' "$PWD" >logs
+  chmod +x logs
+  run small lamp.pov -q -o x.exr --povray ./logs
+  [[ -s log.txt && $output == *"writes files (first.txt is the first)"* ]]
 }
 
 @test "--strict: a warning is a failure, and what was baked is not lost" {

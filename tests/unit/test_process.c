@@ -1,8 +1,12 @@
 /* test_process.c - other programs: what they are given, what they say, how they end. */
 #include "base/process.h"
 
+#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
+#include <time.h>
 
 #include "helpers.h"
 
@@ -58,6 +62,41 @@ TEST(test_troubles) {
   assert_string_equal(error.text, "/nowhere/program: cannot be run (No such file or directory)");
   assert_int_equal(shell("yes", &process, &error), RESULT_IO);
   assert_int_equal(strlen(process.said), sizeof process.said - 1);
+}
+
+static volatile sig_atomic_t stop;
+
+static void on_alarm(int number) {
+  (void)number;
+  stop = 1;
+}
+
+/* With what it has started, and in whatever it is waiting for. */
+TEST(test_stopped) {
+  static const char *const words[] = {"sh", "-c", "sleep 1000 & echo $!; wait", NULL};
+  struct process process = {.words = words,
+                            .in = PROCESS_NOTHING,
+                            .out = PROCESS_SAID,
+                            .errors = PROCESS_SAID,
+                            .stop = &stop};
+  struct error error;
+  struct itimerval soon = {.it_value = {0, 300000}};
+  char path[64], state = 'Z';
+  signal(SIGALRM, on_alarm);
+  setitimer(ITIMER_REAL, &soon, NULL);
+  assert_int_equal(process_run(&process, &error), RESULT_STOPPED);
+  int child = atoi(process.said);
+  assert_true(child > 0);
+  snprintf(path, sizeof path, "/proc/%d/stat", child);
+  for (int tries = 0; tries < 100; ++tries) {
+    FILE *file = fopen(path, "re");
+    state = 'Z';
+    if (file) assert_int_equal(fscanf(file, "%*s %*s %c", &state), 1);
+    if (file) fclose(file);
+    if (state == 'Z') break;
+    nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+  }
+  assert_int_equal(state, 'Z');
 }
 
 int main(void) {
