@@ -3,7 +3,8 @@
  * 1. Each kind makes offers: the far field one; the sheet one for each number of lights, from
  *    all of them halved down to one an axis; the cluster one, as small as the tolerance allows.
  *    Where all kinds are asked for, the cluster's fit, by far the longest, is bounded by the size
- *    of the bake, in counted work: the same lights on any machine.
+ *    of the bake, in counted work: the same lights on any machine. The other two take a number of
+ *    look-ups that is given by the slab's positions and pages (sheet.h), far less than the rays.
  * 2. An offer's cost is the time that POV-Ray takes for it at a shaded point; its error the
  *    relative RMSE of the irradiance on a plane at the distance, of the worst page: by plane_errors
  *    for the sheet and the far field, by cluster_error for the cluster, each against the integral
@@ -185,7 +186,7 @@ static enum result make_offers(const struct slab *slabs, int count, const struct
   double distance = wish->distance;
   enum result result = RESULT_OK;
   if (wish->modes & INCLUDE_POINT) {
-    result = point_make(slabs, count, distance, &choice->point, error);
+    result = point_make(slabs, count, distance, wish->progress, &choice->point, error);
     if (result == RESULT_OK)
       offers->list[offers->count++] = (struct offer){.mode = INCLUDE_POINT,
                                                      .lights = 1,
@@ -194,7 +195,7 @@ static enum result make_offers(const struct slab *slabs, int count, const struct
                                                      .shadow = choice->point.shadow_at};
   }
   if (result == RESULT_OK && wish->modes & INCLUDE_SHEET) {
-    result = sheet_make(slabs, count, 0, distance, &choice->sheet, error);
+    result = sheet_make(slabs, count, 0, distance, wish->progress, &choice->sheet, error);
     if (result == RESULT_OK) offer_sheets(&choice->sheet, offers);
   }
   if (result == RESULT_OK && wish->modes & INCLUDE_CLUSTER) {
@@ -222,7 +223,7 @@ enum result include_choose(const struct slab *slabs, int count, const struct inc
   explain(&offers, chosen, tolerance, distance, choice->why, sizeof choice->why);
   if (chosen->mode != INCLUDE_SHEET) return RESULT_OK;
   sheet_free(&choice->sheet); /* once more, with only what is needed and its errors */
-  return sheet_make(slabs, count, chosen->lights, 0, &choice->sheet, error);
+  return sheet_make(slabs, count, chosen->lights, 0, wish->progress, &choice->sheet, error);
 }
 
 enum result include_make(const struct slab *slabs, int count, enum include_mode mode, int lights,
@@ -235,9 +236,9 @@ enum result include_make(const struct slab *slabs, int count, enum include_mode 
                         &(struct cluster_wish){.lights = lights, .distance = distance},
                         &choice->cluster, error);
   case INCLUDE_POINT:
-    return point_make(slabs, count, distance, &choice->point, error);
+    return point_make(slabs, count, distance, NULL, &choice->point, error);
   default:
-    return sheet_make(slabs, count, lights, 0, &choice->sheet, error);
+    return sheet_make(slabs, count, lights, 0, NULL, &choice->sheet, error);
   }
 }
 

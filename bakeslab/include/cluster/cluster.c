@@ -65,7 +65,6 @@ struct work {
   struct cluster_light *candidates;
   int candidate_count;
   struct cluster_work effort;
-  double begun, part; /* of all pages' progress: this page's */
 };
 
 /* Work of growing once: what each candidate gives to each receiver, with some points each. */
@@ -78,7 +77,7 @@ static double growing_work(const struct work *work) {
 
 static enum result grow_page(struct work *work, int wanted, struct cluster_page *page,
                              struct error *error) {
-  work->effort.done += growing_work(work);
+  cluster_work_add(&work->effort, growing_work(work));
   enum result result = cluster_grow(&work->target, work->candidates, work->candidate_count,
                                     page->lights, &page->count, wanted, error);
   /* The second time with the points that the lights then need. */
@@ -137,13 +136,6 @@ static double shadow_error(const struct work *work, const struct cluster_page *p
   return plane_shadow_error(&work->shadow, add_seen, &now, 0);
 }
 
-static void show(const struct work *work) {
-  if (work->wish->progress && isfinite(work->effort.most))
-    progress_show(work->wish->progress,
-                  work->begun + work->part * fmin(work->effort.done / work->effort.most, 1),
-                  "fitting lights");
-}
-
 /* Grows a page up to `lights`, or, where that is 0, until it meets the tolerance or twice
  * the lights help no more, or there is no work left; keeps the best on the way. */
 static enum result grow(struct work *work, int lights, struct cluster_page *page, bool *cut_short,
@@ -165,7 +157,6 @@ static enum result grow(struct work *work, int lights, struct cluster_page *page
       page->shadow_at = now.shadow_at;
       best = reached;
     }
-    show(work);
     if (wanted >= most) return RESULT_OK;
     if (lights == 0 && (reached <= tolerance || (idle >= 2 && reached > 2 * tolerance)))
       return RESULT_OK;
@@ -184,9 +175,10 @@ static enum result make_page(const struct slab *slab, int number, int place, int
   struct cluster_page *page = &cluster->pages[place];
   struct work work = {.slab = slab,
                       .wish = wish,
-                      .effort.most = wish->work > 0 ? wish->work / pages : INFINITY,
-                      .begun = place / pages,
-                      .part = 1 / pages};
+                      .effort = {.most = wish->work > 0 ? wish->work / pages : INFINITY,
+                                 .progress = wish->progress,
+                                 .begun = place / pages,
+                                 .part = 1 / pages}};
   enum result result = cluster_target_make(slab, distance, &work.target, error);
   if (result == RESULT_OK) result = cluster_gauge_make(slab, distance, &work.gauge, error);
   if (result == RESULT_OK)

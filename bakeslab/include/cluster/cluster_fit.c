@@ -163,7 +163,7 @@ static void make_normal(struct fit *f) {
         f->side[lit[i] * NUMBERS + p] += rest * row[lit[i] * NUMBERS + p];
       for (int j = 0; j <= i; ++j) add_pair(f, lit[i], lit[j], row);
     }
-    f->work->done += pair_work * count * count / 2;
+    cluster_work_add(f->work, pair_work * count * count / 2);
   }
 }
 
@@ -194,6 +194,13 @@ static void accept_trial(struct fit *f) {
   memcpy(f->base_now, f->base, (size_t)f->rows * (size_t)f->count * sizeof *f->base);
 }
 
+void cluster_work_add(struct cluster_work *work, double more) {
+  work->done += more;
+  if (work->progress && isfinite(work->most))
+    progress_show(work->progress, work->begun + work->part * fmin(work->done / work->most, 1),
+                  "fitting lights");
+}
+
 /* Of one table of the lights' rows, and of solving for their colours. */
 static double trial_work(const struct fit *f) {
   double points = 0, n = f->count;
@@ -207,13 +214,13 @@ static void refine(struct fit *f) {
   accept_trial(f);
   for (int steps = 0, idle = 0; steps < MOST_STEPS && idle < 4; ++steps) {
     if (f->work->done > f->work->most) break;
-    f->work->done += 2 * trial;
+    cluster_work_add(f->work, 2 * trial);
     fill_jacobian(f);
     make_normal(f);
     double before = squares;
     for (int tries = 0; tries < 12; ++tries, damping *= 4) {
       if (!step(f, damping)) continue;
-      f->work->done += trial;
+      cluster_work_add(f->work, trial);
       double after = try_numbers(f, f->trial);
       if (after >= squares) continue;
       squares = after;

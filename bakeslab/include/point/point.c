@@ -221,10 +221,12 @@ static enum result measure_shadow(const struct far_page *far, struct point *poin
   return result;
 }
 
-static enum result measure(const struct far_lamp *lamp, struct point *point, struct error *error) {
+static enum result measure(const struct far_lamp *lamp, struct progress *progress,
+                           struct point *point, struct error *error) {
   for (int p = 0; p < lamp->count; ++p) {
     struct far_page *far = &lamp->pages[p];
     double from[3];
+    if (progress) progress_show(progress, (double)p / lamp->count, "measuring the far field");
     for (int c = 0; c < 3; ++c) from[c] = far->slab->center[c] - point->center[c];
     far->shift[0] = dot(from, far->u);
     far->shift[1] = dot(from, far->v);
@@ -286,8 +288,8 @@ static enum result finish(struct point *point, const double flux[3], struct erro
   return RESULT_OK;
 }
 
-enum result point_make(const struct slab *slabs, int count, double distance, struct point *point,
-                       struct error *error) {
+enum result point_make(const struct slab *slabs, int count, double distance,
+                       struct progress *progress, struct point *point, struct error *error) {
   struct far_lamp lamp = {0};
   const struct slab **lit = NULL;
   int lit_count = 0;
@@ -298,7 +300,7 @@ enum result point_make(const struct slab *slabs, int count, double distance, str
   if (result == RESULT_OK) result = gather(lit, lit_count, &lamp, point, error);
   if (result == RESULT_OK) result = paint(&lamp, point, flux, error);
   if (result == RESULT_OK) result = finish(point, flux, error);
-  if (result == RESULT_OK) result = measure(&lamp, point, error);
+  if (result == RESULT_OK) result = measure(&lamp, progress, point, error);
   for (int p = 0; p < lamp.count; ++p) slab_free(&lamp.pages[p].views);
   free(lamp.pages);
   free(lit);

@@ -10,6 +10,7 @@
 #define POINT_H
 
 #include "base/picture.h"
+#include "base/progress.h"
 #include "include/text/include_text.h"
 
 enum { POINT_DISTANCES = 3 };
@@ -29,8 +30,8 @@ struct point {
 
 /* Refuses negative radiance, lamps without light and what POV-Ray's numbers cannot
  * hold. Free with point_free, also after a failure. */
-enum result point_make(const struct slab *slabs, int count, double distance, struct point *point,
-                       struct error *error);
+enum result point_make(const struct slab *slabs, int count, double distance,
+                       struct progress *progress, struct point *point, struct error *error);
 void point_free(struct point *point);
 
 /* point_text.c: the include file. The caller checks the stream. */

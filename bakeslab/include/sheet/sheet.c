@@ -103,8 +103,21 @@ static enum result measure_shadows(const struct slab *slab, double distance,
   return result;
 }
 
+/* A page's share of what progress shows. */
+struct shown {
+  struct progress *progress; /* or NULL */
+  double begun, part;
+};
+
+static void show(const struct shown *shown, int steps) {
+  if (shown->progress)
+    progress_show(shown->progress, shown->begun + shown->part * steps / (SHEET_DISTANCES + 2),
+                  "measuring sheets");
+}
+
 static enum result make_page(const struct slab *slab, int number, int most, double distance,
-                             struct sheet_page *page, struct error *error) {
+                             const struct shown *shown, struct sheet_page *page,
+                             struct error *error) {
   double errors[SHEET_MOST_LEVELS];
   int lights[2] = {slab->samples[SLAB_U], slab->samples[SLAB_V]};
   for (int k = 0; k < 2; ++k)
@@ -118,11 +131,14 @@ static enum result make_page(const struct slab *slab, int number, int most, doub
   }
   page->faintest = faintest_of(slab) / page->levels[0].peak;
   for (int d = 0; d < SHEET_DISTANCES; ++d) {
+    show(shown, d);
     measure(slab, distances[d], page, errors);
     for (int k = 0; k < page->level_count; ++k) page->levels[k].error[d] = errors[k];
   }
+  show(shown, SHEET_DISTANCES);
   if (distance > 0) measure(slab, distance, page, errors);
   for (int k = 0; k < page->level_count && distance > 0; ++k) page->levels[k].error_at = errors[k];
+  show(shown, SHEET_DISTANCES + 1);
   if (distance > 0) {
     enum result result = measure_shadows(slab, distance, page, error);
     if (result != RESULT_OK) return result;
@@ -131,7 +147,7 @@ static enum result make_page(const struct slab *slab, int number, int most, doub
 }
 
 enum result sheet_make(const struct slab *slabs, int count, int lights, double distance,
-                       struct sheet *sheet, struct error *error) {
+                       struct progress *progress, struct sheet *sheet, struct error *error) {
   const struct slab **lit = NULL;
   int lit_count = 0;
   memset(sheet, 0, sizeof *sheet);
@@ -140,9 +156,11 @@ enum result sheet_make(const struct slab *slabs, int count, int lights, double d
     sheet->pages = calloc((size_t)lit_count, sizeof *sheet->pages);
     if (!sheet->pages) result = result_no_memory(error);
   }
-  for (int p = 0; p < lit_count && result == RESULT_OK; ++p)
-    result = make_page(lit[p], (int)(lit[p] - slabs), lights, distance,
+  for (int p = 0; p < lit_count && result == RESULT_OK; ++p) {
+    const struct shown shown = {progress, (double)p / lit_count, 1.0 / lit_count};
+    result = make_page(lit[p], (int)(lit[p] - slabs), lights, distance, &shown,
                        &sheet->pages[sheet->page_count++], error);
+  }
   if (result == RESULT_OK) result = sheet_paint(sheet, error);
   free(lit);
   return result;

@@ -17,6 +17,7 @@
 #define SHEET_H
 
 #include "base/picture.h"
+#include "base/progress.h"
 #include "include/text/include_text.h"
 
 enum { SHEET_DISTANCES = 5, SHEET_RING = 1, SHEET_MOST_LEVELS = 32 };
@@ -49,10 +50,11 @@ struct sheet {
 
 /* Builds levels, errors and image from the slabs of one lamp, with at most
  * `lights` lights an axis (0: all). The errors are told at `distance`, too, in aperture widths,
- * unless that is 0. Refuses negative radiance, light that POV-Ray's numbers cannot hold, and a
- * lamp without any light. Free with sheet_free, also after a failure. */
+ * unless that is 0; that is some 4000 look-ups of the slab for each of its positions, and 1e7 for
+ * each page, which `progress` (or NULL) shows. Refuses negative radiance, light that POV-Ray's
+ * numbers cannot hold, and a lamp without any light. Free with sheet_free, also after a failure. */
 enum result sheet_make(const struct slab *slabs, int count, int lights, double distance,
-                       struct sheet *sheet, struct error *error);
+                       struct progress *progress, struct sheet *sheet, struct error *error);
 void sheet_free(struct sheet *sheet);
 
 /* Most lights that the sheet has along an axis. */
