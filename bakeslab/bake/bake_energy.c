@@ -2,11 +2,11 @@
  *
  * 1. Without bulbs: a small bake of the pages. What is left is given by other things that glow,
  *    whose flux is not known unless Canned_Glow tells it.
- * 2. Around the pages: their rectangles in a window twice as wide, where most of what they miss
- *    goes, and in one that reaches slopes of REACH, whose outermost directions stand for all
- * beyond; and WIDER rectangles in the same planes, with the sides of the box around all pages that
- * have no page. A ray that passes through no page is missed; the last rectangle that it passes
- * counts it, or else such a side, or else the last wider one.
+ * 2. Around the pages (bake_planes.h): their rectangles in a window twice as wide, where most of
+ *    what they miss goes, and in a far wider one, whose outermost directions stand for all beyond;
+ *    and wider rectangles in the same planes, with the sides of the box around all pages that have
+ *    no page. A ray that passes through no page is missed; the last rectangle that it passes counts
+ *    it, or else such a side, or else the last wider one.
  * 3. After the bake: the flux of its pages, over that of the sources.
  *
  * The projected solid angle of a rectangle of slopes, seen from its corner, is in closed form that
@@ -18,21 +18,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bake/bake_planes.h"
 #include "probe/probe_bake.h"
 #include "slab/flux_box.h"
 #include "slab/plane.h"
 
-/* Positions and directions along an axis of the small bakes. */
-enum {
-  DARK_POSITIONS = 8,
-  DARK_DIRECTIONS = 16,
-  POSITIONS = 8,
-  NEAR_DIRECTIONS = 28,
-  DIRECTIONS = 16,
-  WIDE_POSITIONS = 6,
-  WIDER = 3
-};
-static const double REACH = 8, SIDE_REACH = 3, very_far = 1e6;
+/* Positions and directions along an axis of the small bake without bulbs. */
+enum { DARK_POSITIONS = 8, DARK_DIRECTIONS = 16 };
+static const double very_far = 1e6;
 
 /* Parts of a lamp's light that are told, and what a balance may be off without a warning. */
 static const double negligible = 0.005, most_missed = 0.01, most_gained = 0.02;
@@ -60,29 +53,6 @@ static enum result probe_dark(const struct bake_work *work, struct bake_energy *
 }
 
 /* ---- 2. Around the pages ---- */
-
-/* Makes a page's window so wide that its half is at least `reach`, and twice as wide at least. */
-static void widen_window(struct slab *slab, double reach, int directions) {
-  for (int k = 0; k < 4; k += 2) {
-    double *window = slab->st_window + k;
-    double middle = (window[0] + window[1]) / 2, half = window[1] - window[0];
-    window[0] = middle - fmax(half, reach);
-    window[1] = middle + fmax(half, reach);
-  }
-  for (int k = 0; k < 2; ++k) {
-    slab->samples[SLAB_U + k] = POSITIONS;
-    slab->samples[SLAB_S + k] = directions;
-  }
-}
-
-/* And its rectangle, to look beside it. */
-static void widen_rectangle(struct slab *slab) {
-  for (int c = 0; c < 3; ++c) {
-    slab->u[c] *= WIDER;
-    slab->v[c] *= WIDER;
-  }
-  slab->samples[SLAB_U] = slab->samples[SLAB_V] = WIDE_POSITIONS;
-}
 
 /* The integral of 1/(1 + x^2 + y^2)^2 from 0 to x and y. */
 static double corner_angle(double x, double y) {
@@ -138,40 +108,32 @@ static struct ray ray_of(const struct slab *slab, int number, bool endless,
   return ray;
 }
 
-/* The planes of a lamp of `count` pages, one after the other: rectangles with windows NEAR theirs
- * and FAR beyond, WIDE rectangles, and `sides` of the box around them. `open` are these without
- * windows. */
-enum kind { NEAR, FAR, WIDE, SIDE, MOST_SIDES = 6 };
-
-struct planes {
-  const struct slab *pages; /* as they are */
-  int count, sides;
-  struct slab *baked, *open; /* [SIDE * count + sides]; own nothing */
-};
-
 static bool passes(const struct slab *plane, const struct ray *ray, double *ahead) {
   return flux_box_leaves(plane, ray->point, ray->direction, ahead);
 }
 
 /* Whether a ray of plane number `plane` is missed and counts there. */
-static bool is_missed(const struct planes *planes, int plane, const struct ray *ray) {
+static bool is_missed(const struct bake_planes *planes, int plane, const struct ray *ray) {
   double ahead;
   int count = planes->count, self = plane % count;
-  enum kind kind = (enum kind)(plane < SIDE * count ? plane / count : SIDE);
-  if (kind == FAR && passes(&planes->baked[self], ray, &ahead)) return false;
+  enum bake_planes_kind kind =
+      (enum bake_planes_kind)(plane < PLANES_SIDE * count ? plane / count : PLANES_SIDE);
+  if (kind == PLANES_FAR && passes(&planes->baked[self], ray, &ahead)) return false;
   for (int n = 0; n < count; ++n) {
     const struct slab *rectangle = &planes->open[n];
     if (passes(&planes->pages[n], ray, &ahead)) return false;
-    if (passes(rectangle, ray, &ahead) && (kind >= WIDE || (n != self && ahead > 0))) return false;
+    if (passes(rectangle, ray, &ahead) && (kind >= PLANES_WIDE || (n != self && ahead > 0)))
+      return false;
   }
-  for (int n = (int)kind * count; kind >= WIDE && n < SIDE * count + planes->sides; ++n) {
-    bool first = kind == WIDE && n >= SIDE * count;
+  for (int n = (int)kind * count; kind >= PLANES_WIDE && n < PLANES_SIDE * count + planes->sides;
+       ++n) {
+    bool first = kind == PLANES_WIDE && n >= PLANES_SIDE * count;
     if (n != plane && passes(&planes->open[n], ray, &ahead) && (first || ahead > 0)) return false;
   }
   return true;
 }
 
-static void add_plane(const struct planes *planes, const struct slab *slab, int self,
+static void add_plane(const struct bake_planes *planes, const struct slab *slab, int self,
                       double missed[3]) {
   double area = slab_spacing(slab, SLAB_U) * slab_spacing(slab, SLAB_V);
   for (size_t n = 0; n < slab_sample_count(slab); ++n) {
@@ -185,110 +147,23 @@ static void add_plane(const struct planes *planes, const struct slab *slab, int 
   }
 }
 
-/* How far a page reaches from another one's plane. */
-static double off_plane(const struct slab *other, const struct slab *page) {
-  double along[3] = {0};
-  for (int c = 0; c < 3; ++c) {
-    along[0] += other->normal[c] * (page->center[c] - other->center[c]);
-    along[1] += other->normal[c] * page->u[c];
-    along[2] += other->normal[c] * page->v[c];
-  }
-  return fabs(along[0]) + (fabs(along[1]) + fabs(along[2])) / 2;
-}
-
-/* The box around all pages, in lamp space; false where they lie in one plane: that goes through
- * the lamp, and so would sides of a box around it. */
-static bool find_box(const struct planes *planes, double box[2][3]) {
-  double thick = 0, least = INFINITY, most = 0;
-  for (int c = 0; c < 3; ++c) {
-    box[0][c] = INFINITY;
-    box[1][c] = -INFINITY;
-    for (int n = 0; n < planes->count; ++n) {
-      const struct slab *page = &planes->pages[n];
-      double half = (fabs(page->u[c]) + fabs(page->v[c])) / 2;
-      box[0][c] = fmin(box[0][c], page->center[c] - half);
-      box[1][c] = fmax(box[1][c], page->center[c] + half);
-    }
-    least = fmin(least, box[1][c] - box[0][c]);
-    most = fmax(most, box[1][c] - box[0][c]);
-  }
-  for (int n = 0; n < planes->count; ++n)
-    thick = fmax(thick, off_plane(&planes->pages[0], &planes->pages[n]));
-  return fmin(thick, least) > 0.05 * most;
-}
-
-/* The sides of the box that have no page in their plane, half the box further out and twice as
- * wide: a wall may lie on the side, and what is inside it does not leave. */
-static void add_sides(struct planes *planes) {
-  double box[2][3];
-  if (!find_box(planes, box)) return;
-  for (int side = 0; side < MOST_SIDES; ++side) {
-    int axis = side / 2, next = (axis + 1) % 3, last = (axis + 2) % 3;
-    double at = box[side % 2][axis], close = 0.01 * (box[1][axis] - box[0][axis]);
-    bool taken = false;
-    for (int n = 0; n < planes->count; ++n)
-      taken |= fabs(planes->pages[n].normal[axis]) > 0.999 &&
-               fabs(planes->pages[n].center[axis] - at) < close;
-    if (taken) continue;
-    struct slab *plane = &planes->baked[SIDE * planes->count + planes->sides];
-    *plane = planes->pages[0];
-    for (int c = 0; c < 3; ++c) {
-      plane->center[c] =
-          c == axis ? at + (side % 2 ? 50 : -50) * close : (box[0][c] + box[1][c]) / 2;
-      plane->normal[c] = c == axis ? (side % 2 ? 1 : -1) : 0;
-      plane->u[c] = c == next ? 2 * (box[1][c] - box[0][c]) : 0;
-      plane->v[c] = c == last ? 2 * (box[1][c] - box[0][c]) : 0;
-    }
-    plane->st_distance = INFINITY;
-    for (int k = 0; k < 4; ++k) plane->st_window[k] = 0;
-    widen_window(plane, SIDE_REACH, NEAR_DIRECTIONS);
-    struct slab *open = &planes->open[SIDE * planes->count + planes->sides++];
-    *open = *plane;
-    for (int k = 0; k < 4; ++k) open->st_window[k] = k % 2 ? INFINITY : -INFINITY;
-  }
-}
-
-static enum result plan_planes(const struct bake_work *work, struct planes *planes,
-                               struct error *error) {
-  *planes = (struct planes){.pages = work->slabs, .count = work->lamp->slab_count};
-  size_t most = SIDE * (size_t)planes->count + MOST_SIDES;
-  planes->baked = malloc(most * sizeof *planes->baked);
-  planes->open = malloc(most * sizeof *planes->open);
-  if (!planes->baked || !planes->open) return result_no_memory(error);
-  for (int n = 0; n < SIDE * planes->count; ++n) {
-    struct slab *plane = &planes->baked[n];
-    int kind = n / planes->count;
-    *plane = planes->pages[n % planes->count];
-    widen_window(plane, kind == NEAR ? 0 : REACH, kind == NEAR ? NEAR_DIRECTIONS : DIRECTIONS);
-    if (kind == WIDE) widen_rectangle(plane);
-    planes->open[n] = *plane;
-    for (int k = 0; k < 4; ++k) planes->open[n].st_window[k] = k % 2 ? INFINITY : -INFINITY;
-  }
-  add_sides(planes);
-  return RESULT_OK;
-}
-
-static void free_planes(struct planes *planes) {
-  free(planes->baked);
-  free(planes->open);
-}
-
 static enum result probe_around(const struct bake_work *work, struct bake_energy *energy,
                                 struct bake_report *report, struct error *error) {
   int pages = work->lamp->slab_count;
-  struct planes planes;
+  struct bake_planes planes;
   struct bake_work around = *work;
   struct lamp lamp = *work->lamp;
   struct probe_bake bake = {0};
-  enum result result = plan_planes(work, &planes, error);
-  lamp.slab_count = SIDE * pages + planes.sides;
+  enum result result = bake_planes_make(work, &planes, error);
+  lamp.slab_count = PLANES_SIDE * pages + planes.sides;
   around.lamp = &lamp;
   if (result == RESULT_OK)
     result = probe_bake(&around, planes.baked, work->look.effects, NULL, 1, &bake, report, error);
   for (int n = 0; n < bake.count && result == RESULT_OK; ++n)
-    add_plane(&planes, &bake.pages[n], n, n < WIDE * pages ? energy->window : energy->beside);
+    add_plane(&planes, &bake.pages[n], n,
+              n < PLANES_WIDE * pages ? energy->window : energy->beside);
   probe_bake_free(&bake);
-  free_planes(&planes);
+  bake_planes_free(&planes);
   return result;
 }
 
@@ -377,13 +252,13 @@ static void warn(const struct bake_work *work, const struct bake_energy *energy,
 
 enum result bake_energy_cost(const struct bake_work *work, int *bakes, double *rays,
                              struct error *error) {
-  struct planes planes;
-  enum result result = plan_planes(work, &planes, error);
+  struct bake_planes planes;
+  enum result result = bake_planes_make(work, &planes, error);
   *bakes = work->lamp->bulbs ? 2 : 1;
   *rays = work->lamp->bulbs ? work->lamp->slab_count * pow(DARK_POSITIONS * DARK_DIRECTIONS, 2) : 0;
-  for (int n = 0; n < SIDE * planes.count + planes.sides && result == RESULT_OK; ++n)
+  for (int n = 0; n < PLANES_SIDE * planes.count + planes.sides && result == RESULT_OK; ++n)
     *rays += (double)slab_sample_count(&planes.baked[n]);
-  free_planes(&planes);
+  bake_planes_free(&planes);
   return result;
 }
 

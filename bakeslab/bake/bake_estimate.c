@@ -29,7 +29,7 @@ enum { SUM_BYTES = 80 };
  * radiosity would take new samples for most of them. */
 enum { FEW_POSITIONS = 4, MOST_POSITIONS = 8, FEW = 16, MANY = 64, PROBE_RAYS = 2 };
 static const double program_bytes = 10e6, povray_bytes = 20e6, povray_ray_bytes = 45,
-                    idle_seconds = 0.5, frame_seconds = 0.25;
+                    idle_seconds = 0.1, frame_seconds = 0.02;
 
 /* The bytes of a view in a file of such pages. */
 static enum result measure_bytes(const struct bake_work *work, const struct probe_bake *bake,

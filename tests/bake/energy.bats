@@ -63,6 +63,16 @@ cube='Canned_Needs("")
     Canned_Bulb(vrotate(y, Tilt_), 0.3, 5)'
   run bake can.pov -q -o x.exr --uv 4 --st 16 --rays 4
   [[ $status -eq 0 && $output != *"the pages miss"* ]] || { echo "$output"; return 1; }
+  # Nor in the upper one of two.
+  lamp two.pov 'Canned_Needs("interreflection")
+    #for (I_, 0, 1)
+      Canned_Slab(<3*I_, I_, 0>, 2*x, 2*z, -y, <-9, 9, -9, 9>, 0)
+      union { cone { 0, 1, 2*y, 0.4 open } disc { 2*y, y, 0.4 } translate <3*I_, I_, 0>
+        pigment { rgb 0.8 } finish { diffuse 1 } }
+      Canned_Bulb(<3*I_, I_ + 1, 0>, 0.3, 5)
+    #end'
+  run bake two.pov -q -o x.exr --uv 4 --st 16 --rays 4
+  [[ $status -eq 0 && $output != *"the pages miss"* ]] || { echo "$output"; return 1; }
 }
 
 @test "a glowing disc: Lambert's law says how much a window lets through" {
