@@ -164,9 +164,7 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
   if (result == RESULT_OK && options->tolerance > 0)
     result = probe_resolution(work, state->lamp.slabs, &state->origin.resolution, report, error);
   if (result == RESULT_OK) result = choose_form(options, &state->lamp, &work->look.form, error);
-  work->look.offsets = options->centre         ? BAKE_CENTRE
-                       : work->effort.adaptive ? BAKE_OWN
-                                               : BAKE_SHARED;
+  work->look.offsets = options->centre ? BAKE_CENTRE : options->uniform ? BAKE_SHARED : BAKE_OWN;
   return result;
 }
 
@@ -196,10 +194,11 @@ static enum result announce(const struct bake_work *work, const struct bake_stat
 static const double most_flux_noise = 0.05;
 
 static void warn_of_noise(const struct bake_noise *noise, struct warnings *warnings) {
-  if (!noise->known || !(noise->flux > most_flux_noise)) return;
+  if (!(noise->flux > most_flux_noise)) return;
   warnings_add(warnings,
                "the slab's flux is known to %.0f %% only (standard error; few rays find the light "
-               "of a small source): %.3g times as many --rays would make that %.2g %%",
+               "of a small source): %.3g times as many --rays would make that %.2g %%, and so may "
+               "narrower windows",
                100 * noise->flux, ceil(pow(noise->flux / most_flux_noise, 2)),
                100 * most_flux_noise);
 }
@@ -283,7 +282,7 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
   const struct bake_options *options = work->options;
   struct slab *pages = state->lamp.slabs;
   int count = state->lamp.slab_count;
-  bake_sum_noise(state->rounds.sum, work->look.gain, &state->origin.noise);
+  bake_sum_noise(state->rounds.sum, work->look.gain, work->look.offsets, &state->origin.noise);
   enum result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
   if (result == RESULT_OK) result = find_housing(work, report, &state->origin.housing, error);
   for (int n = 0; n < count && result == RESULT_OK; ++n)

@@ -200,7 +200,8 @@ static void say(const struct bake_work *work, const char *why, double noise,
              100 * luminance(energy->dark) / luminance(energy->pages));
   char known[40] = "", digits[16];
   if (noise > 0.003)
-    snprintf(known, sizeof known, " (known to %s %%)", two_digits(300 * noise, digits));
+    snprintf(known, sizeof known, " (known to %s %% of that)", two_digits(300 * noise, digits));
+  if (isnan(noise)) strcpy(known, " (not known how well)");
   if (why)
     snprintf(line, BAKE_ENERGY_LINE, "%.4g %s leaves through the pages%s; efficiency not known: %s",
              metres2 * luminance(energy->pages), unit, share, why);
@@ -277,10 +278,10 @@ enum result bake_energy(const struct bake_work *work, const struct bake_noise *n
   energy->missed = all > 0 ? missed / all : 0;
   if (result == RESULT_BAD) energy->missed = NAN; /* what is beside a lamp may be too bright */
   if (result != RESULT_OK && result != RESULT_BAD) return result;
-  double flux_noise = noise->known ? noise->flux : 0;
+  double flux_noise = isnan(noise->flux) ? 0 : noise->flux;
   const char *why = unknown(work, energy);
   if (!why) energy->efficiency = luminance(energy->pages) / luminance(energy->sources);
-  say(work, why, flux_noise, energy);
+  say(work, why, noise->flux, energy);
   memcpy(report->energy, energy->line, sizeof energy->line);
   warn(work, energy, !why, flux_noise, &report->warnings);
   return RESULT_OK;

@@ -3,7 +3,8 @@
  * 1. Where all samples get the same number of rays: one round, and that is all.
  * 2. Else the pilot: PILOT passes of every tile, summed (bake_sum.h).
  * 3. The standard deviation of each tile, by the scatter of its pairs of passes.
- * 4. The passes of each tile, within the budget (bake_allocate.c).
+ * 4. The passes of each tile, within the budget (bake_allocate.c); the same of all where the pilot
+ *    met the light too seldom to tell.
  * 5. The second round renders what is still missing of them (bake_plan.h).
  *
  * A shard sums all of the pilot, since it plans by that, but of the last round it renders its own
@@ -26,7 +27,8 @@ int bake_rounds_first(const struct bake_effort *effort) {
   return effort->adaptive ? PILOT : effort->rays;
 }
 
-/* Steps 3 and 4. */
+/* Steps 3 and 4. Of a source that few rays meet, a pilot shows the places where it was lucky: what
+ * more rays would find elsewhere is missing for good. Then all tiles get the same. */
 static enum result plan_rest(const struct bake_work *work, struct bake_rounds *rounds,
                              struct error *error) {
   const struct bake_effort *effort = &work->effort;
@@ -35,7 +37,8 @@ static enum result plan_rest(const struct bake_work *work, struct bake_rounds *r
   int *wanted = malloc(tiles * sizeof *wanted);
   enum result result = deviation && wanted ? RESULT_OK : result_no_memory(error);
   if (result == RESULT_OK) result = bake_sum_deviation(rounds->sum, deviation, error);
-  if (result == RESULT_OK)
+  for (size_t n = 0; n < tiles && result == RESULT_OK; ++n) wanted[n] = effort->rays;
+  if (result == RESULT_OK && bake_sum_met_light(rounds->sum))
     result = bake_plan_allocate(&rounds->tiles, deviation, PILOT, effort->rays, effort->rays_max,
                                 wanted, error);
   if (result == RESULT_OK)

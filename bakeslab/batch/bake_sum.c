@@ -14,8 +14,9 @@ struct bake_sum {
   const struct bake_tiles *tiles; /* not owned */
   struct cell **pages;            /* one array a page, in the raster's order */
   int most_pairs;
-  double *flux;    /* [tile][pair]: luminous flux of the tile by that pair */
-  int *tile_pairs; /* pairs that each tile got */
+  double *flux;     /* [tile][pair]: luminous flux of the tile by that pair */
+  int *tile_pairs;  /* pairs that each tile got */
+  double brightest; /* luminance of a ray */
 };
 
 enum result bake_sum_new(const struct bake_tiles *tiles, int most_passes, struct bake_sum **out,
@@ -68,8 +69,10 @@ static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int
   size_t column = (size_t)at[SLAB_U] * (size_t)n[SLAB_S] + (size_t)at[SLAB_S];
   struct cell *cell = &sum->pages[page][row * (size_t)slab_width(slab) + column];
   double y = slab_luminance(rgb);
+  sum->brightest = fmax(sum->brightest, y);
   for (int c = 0; c < 3; ++c) cell->rgb[c] += (double)rgb[c];
   if (mirrored) {
+    sum->brightest = fmax(sum->brightest, slab_luminance(mirrored));
     y = 0.5 * (y + slab_luminance(mirrored));
     for (int c = 0; c < 3; ++c) cell->rgb[c] += (double)mirrored[c];
   }
@@ -138,28 +141,130 @@ enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, st
   return RESULT_OK;
 }
 
-/* Relative. All samples of a pair share its offset, so that errors of tiles are correlated:
- * residuals are summed over tiles before they are squared. NAN without memory. */
-static double flux_error(const struct bake_sum *sum) {
-  double total = 0, squares = 0;
+bool bake_sum_met_light(const struct bake_sum *sum) {
+  double all = 0, squares = 0;
+  for (int page = 0; page < sum->tiles->pages; ++page)
+    for (size_t n = 0; n < slab_sample_count(&sum->tiles->slabs[page]); ++n) {
+      int at[SLAB_AXES];
+      slab_locate(&sum->tiles->slabs[page], n, at);
+      double weight = cell_weight(&sum->tiles->slabs[page], at);
+      all += weight * sum->pages[page][n].y;
+      squares += weight * weight * sum->pages[page][n].yy;
+    }
+  return all * all >= squares * fmin(1000, 4 * bake_tile_count(sum->tiles));
+}
+
+/* ---- The error of the flux ---- */
+
+/* Fewer second differences than this say nothing. */
+enum { ENOUGH_BENDS = 16 };
+
+/* The cameras of a page, in a grid along the axes that none of them covers: the flux of each, and
+ * what each pair of passes is off it. */
+struct cameras {
+  int size[2], most_pairs;
+  double *flux, *residual; /* [camera], [camera][pair]; owned */
+};
+
+static bool find_cameras(const struct bake_sum *sum, int page, struct cameras *cameras) {
+  int first = sum->tiles->transposed ? SLAB_S : SLAB_U, grid[SLAB_AXES], at[SLAB_AXES] = {0};
   size_t most = (size_t)sum->most_pairs;
-  double *residual = calloc(most, sizeof *residual);
-  if (!residual) return NAN;
-  for (int tile = 0; tile < bake_tile_count(sum->tiles); ++tile) {
-    const double *flux = sum->flux + (size_t)tile * most;
+  bake_tile_grid(sum->tiles, page, grid);
+  size_t count = (size_t)grid[first] * (size_t)grid[first + 1];
+  *cameras = (struct cameras){.size = {grid[first], grid[first + 1]},
+                              .most_pairs = sum->most_pairs,
+                              .flux = calloc(count, sizeof *cameras->flux),
+                              .residual = calloc(count * most, sizeof *cameras->residual)};
+  if (!cameras->flux || !cameras->residual) return false;
+  do {
+    size_t tile = (size_t)bake_tile_number(sum->tiles, page, at);
+    size_t camera = (size_t)at[first + 1] * (size_t)grid[first] + (size_t)at[first];
+    const double *flux = sum->flux + tile * most;
+    double *residual = cameras->residual + camera * most, mean = 0;
     int n = sum->tile_pairs[tile];
-    double mean = 0;
     for (int pair = 0; pair < n; ++pair) mean += flux[pair] / n;
-    total += mean;
-    for (int pair = 0; pair < n; ++pair)
+    cameras->flux[camera] += mean;
+    for (int pair = 0; pair < n && n > 1; ++pair)
       residual[pair] += (flux[pair] - mean) / sqrt(n * (n - 1.0));
+  } while (bake_tile_next(grid, at));
+  return true;
+}
+
+static void free_cameras(struct cameras *cameras) {
+  free(cameras->flux);
+  free(cameras->residual);
+}
+
+static double squared_scatter(const struct cameras *cameras) {
+  double squares = 0;
+  for (int n = 0; n < cameras->size[0] * cameras->size[1] * cameras->most_pairs; ++n)
+    squares += cameras->residual[n] * cameras->residual[n];
+  return squares;
+}
+
+/* By second differences of cameras in a row, whose variance is six times that of one flux. What
+ * bends by itself adds to it. INFINITY where there are few. */
+static double squared_bends(const struct cameras *cameras) {
+  int nx = cameras->size[0], ny = cameras->size[1], count = 0;
+  double squares = 0;
+  for (int n = 0; n < nx * ny; ++n) {
+    const double *flux = cameras->flux + n;
+    const bool inside[2] = {n % nx > 0 && n % nx<nx - 1, n / nx> 0 && n / nx < ny - 1};
+    for (int k = 0; k < 2; ++k) {
+      if (!inside[k]) continue;
+      int step = k ? nx : 1;
+      squares += pow(flux[-step] - 2 * flux[0] + flux[step], 2) / 6;
+      ++count;
+    }
   }
-  for (size_t pair = 0; pair < most; ++pair) squares += residual[pair] * residual[pair];
-  free(residual);
+  return count < ENOUGH_BENDS ? INFINITY : squares / count * nx * ny;
+}
+
+/* What it would be worth if one ray more had been as bright as the brightest, where that counts
+ * most. */
+static double brightest_ray(const struct bake_sum *sum, int page) {
+  const struct slab *slab = &sum->tiles->slabs[page];
+  double most = 0;
+  for (size_t n = 0; n < slab_sample_count(slab); ++n) {
+    int at[SLAB_AXES];
+    slab_locate(slab, n, at);
+    const struct cell *cell = &sum->pages[page][n];
+    double more = sum->brightest - cell->y / cell->pairs;
+    most = fmax(most, cell_weight(slab, at) * more / cell->rays);
+  }
+  return most;
+}
+
+/* Relative. Errors of cameras with offsets of their own are independent: the lesser counts of the
+ * scatter of their pairs, as if those were random, and of the differences between neighbours.
+ * Where all share the offsets of a pair, residuals are summed before they are squared. Each page
+ * may have missed a ray of a small source: without that, one that met none would be without error.
+ * NAN without memory, or where nothing tells it. */
+static double flux_error(const struct bake_sum *sum, enum bake_offsets offsets, bool pairs) {
+  double total = 0, squares = 0, *shared = calloc((size_t)sum->most_pairs, sizeof *shared);
+  bool good = shared != NULL;
+  for (int page = 0; page < sum->tiles->pages && good; ++page) {
+    struct cameras cameras;
+    good = find_cameras(sum, page, &cameras);
+    for (int n = 0; good && n < cameras.size[0] * cameras.size[1]; ++n) {
+      total += cameras.flux[n];
+      for (int pair = 0; pair < sum->most_pairs; ++pair)
+        shared[pair] += cameras.residual[(size_t)n * (size_t)sum->most_pairs + (size_t)pair];
+    }
+    if (good && offsets == BAKE_OWN)
+      squares += fmin(pairs ? squared_scatter(&cameras) : INFINITY, squared_bends(&cameras));
+    free_cameras(&cameras);
+    squares += pow(brightest_ray(sum, page), 2);
+  }
+  for (int pair = 0; good && offsets != BAKE_OWN && pair < sum->most_pairs; ++pair)
+    squares += pow(shared[pair], 2);
+  free(shared);
+  if (!good || isinf(squares) || (offsets != BAKE_OWN && !pairs)) return NAN;
   return total != 0 ? sqrt(squares) / fabs(total) : 0;
 }
 
-void bake_sum_noise(const struct bake_sum *sum, double gain, struct bake_noise *noise) {
+void bake_sum_noise(const struct bake_sum *sum, double gain, enum bake_offsets offsets,
+                    struct bake_noise *noise) {
   double squares = 0, luminance = 0, rays = 0, samples = 0;
   *noise = (struct bake_noise){.known = true};
   for (int page = 0; page < sum->tiles->pages; ++page)
@@ -173,9 +278,8 @@ void bake_sum_noise(const struct bake_sum *sum, double gain, struct bake_noise *
     }
   noise->mean = luminance / samples / gain;
   noise->rays = rays / samples;
-  if (!noise->known) return;
-  noise->sample = sqrt(squares / samples) / gain;
-  noise->flux = flux_error(sum);
+  noise->flux = flux_error(sum, offsets, noise->known);
+  if (noise->known) noise->sample = sqrt(squares / samples) / gain;
 }
 
 enum result bake_sum_finish(const struct bake_sum *sum, double gain, struct slab *pages,

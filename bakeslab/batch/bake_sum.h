@@ -4,7 +4,8 @@
  * that their order does not matter. Batches must come in order all the same, since sums
  * of squares are rounded. Noise is estimated from the variance of the pairs' means as if
  * their offsets were random. They fill the cell more evenly than that, so the estimate is
- * rather too high; from the two pairs of four rays it is a rough one. */
+ * rather too high; from the two pairs of four rays it is a rough one. That of the flux is the
+ * lesser of this and of what neighbouring views differ by. */
 #ifndef BAKE_SUM_H
 #define BAKE_SUM_H
 
@@ -23,17 +24,24 @@ void bake_sum_add(struct bake_sum *sum, const struct bake_round *round,
 /* Standard deviation of a pair's mean (luminance, RMS over the tile), by tile. */
 enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, struct error *error);
 
+/* Whether so many rays met light that they tell where it is: a thousand pairs, or four a tile. Of
+ * so many alike the flux would be known as well (the effective sample size of L. Kish, Survey
+ * Sampling, 1965). */
+bool bake_sum_met_light(const struct bake_sum *sum);
+
 struct bake_noise {
-  bool known;    /* needs two pairs */
+  bool known;    /* `sample` is: it needs two pairs */
   double sample; /* RMS standard error of the samples' luminance */
   double mean;   /* mean luminance of all samples, to relate it to */
-  double flux;   /* standard error of the flux, relative */
+  double flux;   /* standard error of the flux, relative; NAN: not known */
   double rays;   /* mean number of rays a sample */
 };
 
 /* The samples: sums divided by their passes and by the gain. Fills each page's rgb. */
 enum result bake_sum_finish(const struct bake_sum *sum, double gain, struct slab *pages,
                             struct error *error);
-void bake_sum_noise(const struct bake_sum *sum, double gain, struct bake_noise *noise);
+/* `offsets` are those of the passes. */
+void bake_sum_noise(const struct bake_sum *sum, double gain, enum bake_offsets offsets,
+                    struct bake_noise *noise);
 
 #endif

@@ -45,7 +45,8 @@ static const struct argp_option options[] = {
     {"precision", KEY(precision), CLI_PRECISIONS, 0, "number format of the samples", 1},
     {"rays", KEY(rays), "K", 0,
      "rays a sample, on average: 1 or an even number (default 16). A sample is the mean over "
-     "its 4D cell; the first 4 rays are shot everywhere, the others where those are noisy",
+     "its 4D cell; the first 4 rays are shot everywhere, the others where those are noisy, or "
+     "everywhere too if few of those met a small source",
      2},
     {"rays-max", KEY(rays_max), "K", 0, "the most rays for a sample (default 4 x --rays)", 2},
     {"uniform", KEY(uniform), 0, 0,

@@ -94,8 +94,9 @@ enum result lamp_why_dark(const struct lamp_trial *trial, const struct lamp *lam
   } tries[] = {
       {"Canned_Probe_Turned_",
        "there is light on the other side: the normal of Canned_Slab points into the lamp; turn it"},
-      {"Canned_Probe_Wide_",
-       "all of its light leaves outside the st window; enlarge that in Canned_Slab"},
+      {"Canned_Probe_Wide_", "its light leaves outside the st window, or is so small that no ray "
+                             "met it; enlarge the window "
+                             "in Canned_Slab, or bake with more --rays"},
       {"Canned_Probe_Inside_",
        "there is light inside, but something opaque shuts the aperture; move Canned_Slab to where "
        "the light leaves, or open the lamp"},
@@ -104,6 +105,12 @@ enum result lamp_why_dark(const struct lamp_trial *trial, const struct lamp *lam
   double mean = 0;
   enum result result = RESULT_OK;
   size_t n = 0, count = sizeof tries / sizeof *tries;
+  if (lamp->mean > 0) {
+    *reason =
+        "its light is so small that no ray met it, though some of the trial run did; bake with "
+        "more --rays, --uv or --st, or make the window in Canned_Slab narrower";
+    return RESULT_OK;
+  }
   for (; n < count && result == RESULT_OK; ++n) {
     result = try_change(trial, tries[n].change, &mean, error);
     if (mean > 0) break;
