@@ -121,7 +121,7 @@ near() { awk -v a="$1" -v b="$2" -v p="$3" 'BEGIN { print a, b; exit !(a - b <= 
   lamp smooth.pov 'plane { z, -2 pigment { rgb 1 } finish { emission 1 } }'
   lamp sharp.pov 'plane { z, -2 pigment { checker rgb 0 rgb 1 scale 0.7 } finish { emission 1 } }'
   bake smooth.pov -q -o smooth.exr --rays 2 --tolerance 0.05
-  bake sharp.pov -o sharp.exr --rays 2 --tolerance 0.05 2>talk.txt
+  bake sharp.pov -o sharp.exr --tolerance 0.05 2>talk.txt
   cat talk.txt
   count() { "$BAKESLAB" info "$1" | awk '$1 == "samples" && $3 == "x" { print $2*$4*$6*$8 + 0 }'; }
   echo "$(count smooth.exr) $(count sharp.exr)"
