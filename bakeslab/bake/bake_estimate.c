@@ -111,8 +111,8 @@ enum result bake_estimate(const struct bake_work *work, struct bake_estimate *es
       measure(work, FEW_POSITIONS, FEW, &cpu[0], &rays[0], &bytes[0], report, error);
   if (result == RESULT_OK)
     result = measure(work, positions, MANY, &cpu[1], &rays[1], &bytes[1], report, error);
+  if (result == RESULT_OK) result = estimate_time(work, cpu, rays, estimate, error);
   if (result != RESULT_OK) return result;
-  result = estimate_time(work, cpu, rays, estimate, error);
   double sample_bytes =
       fmax(0, (bytes[1] - bytes[0] * MANY / FEW) / ((double)MANY * MANY - MANY * FEW));
   double row_bytes = fmax(0, bytes[1] - sample_bytes * MANY * MANY) / MANY;

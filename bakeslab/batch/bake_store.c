@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#define XXH_STATIC_LINKING_ONLY /* for the size of a state */
 #include <xxhash.h>
 
 #include "base/files.h"
@@ -131,15 +132,14 @@ void bake_store_close(struct bake_store *store, bool finished) {
 }
 
 void bake_store_key(char key[33], ...) {
-  XXH3_state_t *state = XXH3_createState();
-  XXH3_128bits_reset(state);
+  XXH3_state_t state; /* XXH3_createState could find no memory */
+  XXH3_128bits_reset(&state);
   va_list texts;
   va_start(texts, key);
   for (const char *text; (text = va_arg(texts, const char *));)
-    XXH3_128bits_update(state, text, strlen(text) + 1);
+    XXH3_128bits_update(&state, text, strlen(text) + 1);
   va_end(texts);
-  XXH128_hash_t hash = XXH3_128bits_digest(state);
-  XXH3_freeState(state);
+  XXH128_hash_t hash = XXH3_128bits_digest(&state);
   snprintf(key, 33, "%016llx%016llx", (unsigned long long)hash.high64,
            (unsigned long long)hash.low64);
 }

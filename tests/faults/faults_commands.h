@@ -34,7 +34,7 @@ static const struct faults_command faults_commands[] = {
      .line = "bakeslab convert ../in/little.tif -o x.exr --uv 3 --precision half",
      .outputs = "x.exr"},
     {.name = "convert-sharpen",
-     .line = "bakeslab convert ../in/little.tif -o x.tif --crop uv=0:1,0:2 --st 3 --sharpen st "
+     .line = "bakeslab convert ../in/little.tif -q -o x.tif --crop uv=0:1,0:2 --st 4 --sharpen st "
              "--positive --precision half",
      .outputs = "x.tif"},
     {.name = "projector",
