@@ -38,7 +38,10 @@ static const struct argp_option options_list[] = {
      "The picture: radiance in float RGB, or 8-bit sRGB as a PNG; - is EXR on standard output", 0},
     {"samples", OPTION_SAMPLES, "N", 0,
      "N x N rays a pixel, on a regular grid, where neighbouring pixels differ by more than "
-     "--tolerance allows; one, through its middle, elsewhere (default 1). Method gl: everywhere",
+     "--tolerance allows; one, through its middle, elsewhere (default 1). There edges of shadows "
+     "are "
+     "looked at N times as coarsely, and light that rays share errs by up to three times the "
+     "tolerance more, as the part \"error\" tells. Method gl: everywhere",
      0},
     {"preview", OPTION_PREVIEW, "FILE.png", 0, "Write an 8-bit sRGB picture too", 0},
     {"exposure", OPTION_EXPOSURE, "X", 0,

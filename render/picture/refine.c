@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "picture/prediction.h"
 
 /* Points whose normals are within 11 degrees and of which one lies that near to the tangent
  * plane of the other, in terms of their distance, are on one surface. */
@@ -14,6 +15,9 @@ static const double same_normal = 0.98, same_plane = 0.1;
 /* A second difference is allowed to be so many times the tolerance: a smooth picture's mean over a
  * pixel is within a twelfth of it. */
 static const double contrast = 8;
+
+/* Light that is shared is predicted to within so many times the tolerance. */
+static const double most_off = 3;
 
 /* Rays that a thread has in memory, if one pixel does not need more. */
 enum { MOST_RAYS = 4096, CORNERS = 4, AROUND = 9 };
@@ -157,98 +161,38 @@ void refine_trace(const struct refine *refine, struct refine_rays *rays) {
 /* Places on the receiver's surface where light is known, by their distance from the middle of its
  * pixel, in pixels. */
 struct places {
-  int count;
-  const struct refine_seen *seen[AROUND];
-  double at[AROUND][2];
+  struct prediction_places where;
+  const struct refine_seen *seen[PREDICTION_MOST];
 };
 
 static void add_place(const struct receiver *receiver, const struct refine_seen *seen, double x,
                       double y, struct places *places) {
   if (!same_surface(receiver->position, receiver->normal, receiver->shininess, seen)) return;
-  places->at[places->count][0] = x;
-  places->at[places->count][1] = y;
-  places->seen[places->count++] = seen;
-}
-
-/* The least-squares plane through values at places, value = p0 + p1 x + p2 y: the rows of
- * `inverse` times the sums of value, value x and value y. `free` is what of each value's error is
- * left when it is fitted, 1 minus its leverage: its distance from the plane through the others is
- * that from this one over it. */
-struct plane {
-  double inverse[3][3], free[AROUND];
-};
-
-static void set_level(int count, struct plane *plane) {
-  *plane = (struct plane){.inverse[0][0] = 1.0 / count};
-  for (int k = 0; k < count; ++k) plane->free[k] = 1 - 1.0 / count;
-}
-
-/* Level where the places lie on a line, or all but one do. */
-static void find_plane(const struct places *places, struct plane *plane) {
-  double n = places->count, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  for (int k = 0; k < places->count; ++k) {
-    const double *at = places->at[k];
-    x += at[0], y += at[1];
-    xx += at[0] * at[0], xy += at[0] * at[1], yy += at[1] * at[1];
-  }
-  const double symmetric[6] = {xx * yy - xy * xy, xy * y - x * yy, x * xy - xx * y,
-                               n * yy - y * y,    x * y - n * xy,  n * xx - x * x};
-  static const int cofactor[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  double determinant = n * symmetric[0] + x * symmetric[1] + y * symmetric[2];
-  set_level(places->count, plane);
-  if (!(determinant > 1e-6)) return;
-  struct plane tilted;
-  for (int k = 0; k < 9; ++k)
-    tilted.inverse[k / 3][k % 3] = symmetric[cofactor[k / 3][k % 3]] / determinant;
-  for (int k = 0; k < places->count; ++k) {
-    const double at[3] = {1, places->at[k][0], places->at[k][1]};
-    tilted.free[k] = 1;
-    for (int i = 0; i < 3; ++i) tilted.free[k] -= at[i] * vector_dot(tilted.inverse[i], at);
-    if (tilted.free[k] < 1e-6) return;
-  }
-  *plane = tilted;
-}
-
-/* A value at (x, y) from the plane through those at the places, kept between the least and the
- * most of them. Returns by how much the worst of these is off the plane through the others. */
-static double fit(const struct places *places, const struct plane *plane, const double *values,
-                  double x, double y, double *value) {
-  double sums[3] = {0}, p[3], low = INFINITY, high = -INFINITY, off = 0;
-  for (int k = 0; k < places->count; ++k) {
-    sums[0] += values[k];
-    sums[1] += values[k] * places->at[k][0];
-    sums[2] += values[k] * places->at[k][1];
-    low = fmin(low, values[k]);
-    high = fmax(high, values[k]);
-  }
-  for (int i = 0; i < 3; ++i) p[i] = vector_dot(plane->inverse[i], sums);
-  for (int k = 0; k < places->count; ++k) {
-    const double *at = places->at[k];
-    off = fmax(off, fabs(p[0] + p[1] * at[0] + p[2] * at[1] - values[k]) / plane->free[k]);
-  }
-  *value = fmin(fmax(p[0] + p[1] * x + p[2] * y, low), high);
-  return off;
+  int number = places->where.count++;
+  places->where.at[number][0] = x;
+  places->where.at[number][1] = y;
+  places->seen[number] = seen;
 }
 
 /* Light at (x, y) from that at the places; false where they do not predict each other. */
 static bool share(double tolerance, const struct places *places, double x, double y,
                   struct gathered *light) {
-  struct plane plane;
-  double values[AROUND], brightest = 0, off = 0, error = 0;
-  if (places->count < 2) return false;
-  find_plane(places, &plane);
+  struct prediction prediction;
+  double values[PREDICTION_MOST], brightest = 0, off = 0, error = 0;
+  if (places->where.count < 2) return false;
+  prediction_make(&places->where, &prediction);
   for (int c = 0; c < 6; ++c) {
-    for (int k = 0; k < places->count; ++k) {
+    for (int k = 0; k < places->where.count; ++k) {
       const struct refine_seen *seen = places->seen[k];
       values[k] = c < 3 ? seen->irradiance[c] : seen->gloss[c - 3];
       brightest = fmax(brightest, values[k]);
       error = fmax(error, (double)seen->error);
     }
-    off = fmax(off, fit(places, &plane, values, x, y,
-                        c < 3 ? &light->irradiance[c] : &light->gloss[c - 3]));
+    off = fmax(off, prediction_value(&places->where, &prediction, values, x, y,
+                                     c < 3 ? &light->irradiance[c] : &light->gloss[c - 3]));
   }
   light->error = error + (brightest > 0 ? off / brightest : 0);
-  return off <= 3 * tolerance * brightest;
+  return off <= most_off * tolerance * brightest;
 }
 
 /* How far the sample lies from its pixel's middle. */
