@@ -159,7 +159,7 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
   if (result == RESULT_OK && options->depend)
     result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
                          true, error);
-  if (result == RESULT_OK && options->window_auto)
+  if (result == RESULT_OK && probe_window_pays(work))
     result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
   if (result == RESULT_OK && options->tolerance > 0)
     result = probe_resolution(work, state->lamp.slabs, &state->origin.resolution, report, error);

@@ -246,7 +246,7 @@ static void warn(const struct bake_work *work, const struct bake_energy *energy,
                  two_digits(100 * energy->missed, text[0]), two_digits(percent * window, text[1]),
                  two_digits(percent * beside, text[2]),
                  beside > window ? "enlarge the rectangles in Canned_Slab, or add pages"
-                 : work->options->window_auto
+                 : work->options->window == BAKE_WINDOW_AUTO
                      ? "enlarge the windows in Canned_Slab"
                      : "enlarge the windows in Canned_Slab, or bake with --window auto");
 }

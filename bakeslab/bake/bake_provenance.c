@@ -42,7 +42,7 @@ enum result bake_provenance(const struct bake_work *work, const struct bake_orig
                         json_pack("{s:f, s:f, s:f}", "sample", noise->sample, "relative_to_mean",
                                   noise->mean != 0 ? noise->sample / noise->mean : 0, "flux",
                                   noise->flux));
-  if (work->options->window_auto)
+  if (origin->window.line[0])
     json_object_set_new(object, "window", json_string(origin->window.line));
   if (work->options->tolerance > 0)
     json_object_set_new(object, "resolution", json_string(origin->resolution.line));

@@ -13,7 +13,7 @@ struct bake_origin {
   struct bake_noise noise;
   bool probed;
   struct probe probe;                 /* where probed */
-  struct probe_windows window;        /* with options->window_auto */
+  struct probe_windows window;        /* no line: as declared */
   struct probe_resolution resolution; /* with options->tolerance */
   struct bake_energy energy;
   char *housing; /* SDL, or NULL */

@@ -2,15 +2,17 @@
  *
  * Neyman's optimal allocation of samples to strata, which are tiles:
  *
- * 1. Take the deviation of each tile from the pilot, but at least half that of its noisiest
- *    neighbour, since the tile may hold what the pilot missed there.
- * 2. For a scale f, a tile of the deviation d gets f d passes, rounded to a step of the ladder
- *    pilot, 2 pilot, 4 pilot, ..., most.
- * 3. Bisect f between "the pilot everywhere" and "most wherever there is noise", for the largest
- *    cost that is within the budget.
+ * 1. Take the mean variance of each tile and its neighbours in other views. Were it the tile's own,
+ *    tiles whose first rays missed light by chance would get no more, and the sum of all too little
+ *    light (Kirk and Arvo 1991); rays of other views are independent.
+ * 2. For a scale f, a tile of the deviation d gets f d passes, rounded to a step of the ladder n,
+ *    2 n, 4 n, ..., most, where n are those that it has.
+ * 3. Bisect f between nothing more and "most wherever there is noise", for the largest that is
+ *    within the budget and no more than the limit of variance asks for.
  *
  * J. Neyman, "On the two different aspects of the representative method", Journal of the Royal
- * Statistical Society 97, 1934. */
+ * Statistical Society 97, 1934. D. Kirk and J. Arvo, "Unbiased sampling techniques for image
+ * synthesis", Computer Graphics 25 (Proc. SIGGRAPH), 1991. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,73 +22,101 @@
 struct tile_need {
   double deviation;
   double rays; /* of one pass */
+  int done;
+};
+
+struct needs {
+  struct tile_need *tiles;
+  int count;
+  double rays; /* of a pass of all tiles */
 };
 
 /* Step 1 for the tile at a place in the grid of its page. */
-static double raised_deviation(const struct bake_tiles *tiles, const double *deviation, int page,
+static double smooth_deviation(const struct bake_tiles *tiles, const double *deviation, int page,
                                const int at[SLAB_AXES], const int grid[SLAB_AXES]) {
-  double raised = deviation[bake_tile_number(tiles, page, at)];
-  for (int axis = 0; axis < SLAB_AXES; ++axis)
-    for (int step = -1; step <= 1; step += 2) {
+  int first = tiles->transposed ? SLAB_S : SLAB_U, count = 1;
+  double sum = pow(deviation[bake_tile_number(tiles, page, at)], 2);
+  for (int axis = first; axis < first + 2; ++axis)
+    for (int side = -1; side <= 1; side += 2) {
       int beside[SLAB_AXES];
       memcpy(beside, at, sizeof beside);
-      beside[axis] += step;
+      beside[axis] += side;
       if (beside[axis] < 0 || beside[axis] >= grid[axis]) continue;
-      raised = fmax(raised, 0.5 * deviation[bake_tile_number(tiles, page, beside)]);
+      sum += pow(deviation[bake_tile_number(tiles, page, beside)], 2);
+      ++count;
     }
-  return raised;
+  return sqrt(sum / count);
 }
 
-static void find_needs(const struct bake_tiles *tiles, const double *deviation,
-                       struct tile_need *needs) {
+static void find_needs(const struct bake_tiles *tiles, const double *deviation, const int *passes,
+                       struct needs *needs) {
   for (int page = 0; page < tiles->pages; ++page) {
     int grid[SLAB_AXES], at[SLAB_AXES] = {0};
     bake_tile_grid(tiles, page, grid);
     do {
       struct bake_box box = bake_tile_box(tiles, page, at);
-      needs[bake_tile_number(tiles, page, at)] = (struct tile_need){
-          raised_deviation(tiles, deviation, page, at, grid), bake_box_rays(&box)};
+      int n = bake_tile_number(tiles, page, at);
+      needs->tiles[n] = (struct tile_need){smooth_deviation(tiles, deviation, page, at, grid),
+                                           bake_box_rays(&box), passes[n]};
+      needs->rays += bake_box_rays(&box);
     } while (bake_tile_next(grid, at));
   }
 }
 
-/* The step of the ladder that is nearest, in ratio, to scale * deviation. */
-static int ladder(double deviation, double scale, int pilot, int most) {
-  int passes = pilot;
-  while (passes < most && deviation * scale > 1.4142135623730951 * passes) passes *= 2;
+/* Step 2: the step of the ladder that is nearest, in ratio, to scale * deviation. */
+static int ladder(const struct tile_need *need, double scale, int most) {
+  int passes = need->done;
+  while (passes > 0 && passes < most && need->deviation * scale > 1.4142135623730951 * passes)
+    passes *= 2;
   return passes < most ? passes : most;
 }
 
-static double cost(const struct tile_need *needs, int count, double scale, int pilot, int most) {
-  double rays = 0;
-  for (int n = 0; n < count; ++n)
-    rays += needs[n].rays * ladder(needs[n].deviation, scale, pilot, most);
-  return rays;
+/* Whether a scale asks for more than the limits allow, or is more than enough. */
+static bool is_too_much(const struct needs *needs, double scale, const struct bake_limits *limits) {
+  double rays = 0, before = 0, after = 0;
+  for (int n = 0; n < needs->count; ++n) {
+    const struct tile_need *need = &needs->tiles[n];
+    int passes = ladder(need, scale, limits->rays_max);
+    if (passes == 0) continue;
+    double variance = need->rays * need->deviation * need->deviation; /* of one pass */
+    rays += need->rays * passes;
+    before += variance / need->done;
+    after += variance / passes;
+  }
+  return rays > limits->rays * needs->rays || after < limits->variance * before;
 }
 
-enum result bake_plan_allocate(const struct bake_tiles *tiles, const double *deviation, int pilot,
-                               int budget, int most, int *passes, struct error *error) {
-  int count = bake_tile_count(tiles);
-  struct tile_need *needs = calloc((size_t)count, sizeof *needs);
-  if (!needs) return result_no_memory(error);
-  find_needs(tiles, deviation, needs);
-  double all = 0, smallest = 0, largest = 0;
-  for (int n = 0; n < count; ++n) {
-    double d = needs[n].deviation;
-    all += needs[n].rays;
-    largest = fmax(largest, d);
-    if (d > 0 && (smallest == 0 || d < smallest)) smallest = d;
+/* Step 3. The bounds are those of the scale at which the noisiest tile gets more, and all get
+ * most. */
+static double find_scale(const struct needs *needs, const struct bake_limits *limits) {
+  double low = INFINITY, high = 0;
+  for (int n = 0; n < needs->count; ++n) {
+    const struct tile_need *need = &needs->tiles[n];
+    if (!(need->deviation > 0)) continue;
+    low = fmin(low, need->done / need->deviation);
+    high = fmax(high, 2 * limits->rays_max / need->deviation);
   }
-  double low = largest > 0 ? pilot / largest : 0, high = smallest > 0 ? 2 * most / smallest : 0;
-  if (cost(needs, count, high, pilot, most) <= budget * all) low = high;
+  if (high == 0) return 0;
+  if (!is_too_much(needs, high, limits)) return high;
   for (int step = 0; step < 100 && low < high; ++step) {
     double middle = 0.5 * (low + high);
-    if (cost(needs, count, middle, pilot, most) <= budget * all)
-      low = middle;
-    else
+    if (is_too_much(needs, middle, limits))
       high = middle;
+    else
+      low = middle;
   }
-  for (int n = 0; n < count; ++n) passes[n] = ladder(needs[n].deviation, low, pilot, most);
-  free(needs);
+  return low;
+}
+
+enum result bake_plan_allocate(const struct bake_tiles *tiles, const double *deviation,
+                               const struct bake_limits *limits, int *passes, struct error *error) {
+  struct needs needs = {.count = bake_tile_count(tiles)};
+  needs.tiles = calloc((size_t)needs.count, sizeof *needs.tiles);
+  if (!needs.tiles) return result_no_memory(error);
+  find_needs(tiles, deviation, passes, &needs);
+  double scale = find_scale(&needs, limits);
+  for (int n = 0; n < needs.count; ++n)
+    passes[n] = ladder(&needs.tiles[n], scale, limits->rays_max);
+  free(needs.tiles);
   return RESULT_OK;
 }

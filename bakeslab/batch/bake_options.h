@@ -7,6 +7,10 @@
 #include "base/warnings.h"
 #include "file/slab_precision.h"
 
+/* The st windows: as declared, those narrowed to the light that are much too wide for it, or all
+ * fitted to the light, narrower or wider. */
+enum bake_window { BAKE_WINDOW_DECLARED, BAKE_WINDOW_NARROWED, BAKE_WINDOW_AUTO };
+
 struct bake_options {
   const char *lamp, *output;
   const char *povray;           /* program */
@@ -15,6 +19,7 @@ struct bake_options {
   double effect_threshold;      /* part of the flux that an effect must change to matter */
   double tolerance;             /* relative RMS of irradiance that decides uv[] and st[]; 0: none */
   double for_distance;          /* in lamp units; 0: none */
+  double noise; /* relative RMS that it may add to irradiance; 0: as suits the resolution; NAN: none */
   double gain;                  /* 0: by the brightness that the trial run shows */
   void (*warn)(const char *line);      /* told each warning at once; NULL: nobody */
   void (*tell_plan)(const char *line); /* of what it is going to be, before it begins; or NULL */
@@ -24,13 +29,13 @@ struct bake_options {
   int rays;     /* passes: 1 or an even number; the mean where adaptive */
   int rays_max; /* for the noisiest tiles */
   int form;     /* an enum bake_form, or -1: the cheapest */
+  enum bake_window window;
   int jobs;
   int shard, shards; /* this process bakes batches shard, shard+shards, ... */
   enum slab_precision precision;
   bool uv_free, st_free; /* not given: a tolerance may choose others */
   bool centre;           /* one ray through each sample's centre */
   bool uniform;          /* the same passes everywhere */
-  bool window_auto;      /* st windows are fitted to the light */
   bool sandbox;          /* POV-Ray runs in one */
   bool strict;           /* a warning is a failure */
   bool dry_run;          /* ends with the plan */

@@ -14,7 +14,7 @@ enum { BATCH_COST = 1 << 21, CAMERA_COST = 256, BATCH_EVEN = 4, BATCH_FRAMES = 5
 
 /* The sides of a tile, and of the largest mesh of directions, whose parsing grows faster
  * than its faces do. */
-enum { TILE = 16, MESH = 64 };
+enum { TILE = 8, MESH = 64 };
 
 /* The longest side of a box. */
 static int longest_side(enum bake_form form) {
@@ -194,7 +194,7 @@ static bool fits(const struct bake_round *round, const struct bake_batch *batch,
   const struct bake_box *box = &round->boxes[round->units[unit].box];
   const struct bake_box *first = &round->boxes[round->units[batch->first].box];
   bool second_of_pair =
-      round->units[unit].pass % 2 && round->units[unit - 1].box == round->units[unit].box;
+      round->units[unit].pass % 2 == 1 && round->units[unit - 1].box == round->units[unit].box;
   if (second_of_pair) return true;
   bool same_shape = !memcmp(box->size, first->size, sizeof box->size);
   if (form != BAKE_MESH && (batch->count >= BATCH_FRAMES || !same_shape)) return false;
@@ -289,11 +289,11 @@ static bool add_boxes(const struct bake_tiles *tiles, const int *wanted, int pas
   return good;
 }
 
-enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
+enum result bake_plan_whole(const struct bake_tiles *tiles, int from, int to, enum bake_form form,
                             struct bake_round *round, struct error *error) {
   *round = (struct bake_round){0};
   if (!add_boxes(tiles, NULL, 0, longest_side(form), round) ||
-      !add_passes(round, 0, 0, passes, true))
+      !add_passes(round, 0, from, to, true))
     return result_no_memory(error);
   return cut_batches(round, form, error);
 }
@@ -317,18 +317,31 @@ void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_
       fmax((double)cut((size_t)(rays + CAMERA_COST * cameras)), ceil(*frames / BATCH_FRAMES));
 }
 
-enum result bake_plan_rest(const struct bake_tiles *tiles, const int *wanted, int pilot,
-                           enum bake_form form, struct bake_round *round, struct error *error) {
-  *round = (struct bake_round){0};
-  int most = pilot;
-  for (int tile = 0; tile < bake_tile_count(tiles); ++tile)
-    if (wanted[tile] > most) most = wanted[tile];
-  for (int passes = pilot; passes < most; passes *= 2) {
-    size_t box = round->box_count;
-    int to = 2 * passes < most ? 2 * passes : most;
-    if (!add_boxes(tiles, wanted, passes, longest_side(form), round) ||
-        !add_passes(round, box, passes, to, form == BAKE_MESH))
-      return result_no_memory(error);
+/* The least that any tile has of those that lack passes, and the most that any is to get. */
+static void find_range(const struct bake_tiles *tiles, const int *done, const int *wanted,
+                       int range[2]) {
+  range[0] = INT_MAX, range[1] = 0;
+  for (int tile = 0; tile < bake_tile_count(tiles); ++tile) {
+    if (wanted[tile] > done[tile] && done[tile] < range[0]) range[0] = done[tile];
+    if (wanted[tile] > range[1]) range[1] = wanted[tile];
   }
-  return cut_batches(round, form, error);
+}
+
+enum result bake_plan_rest(const struct bake_tiles *tiles, const int *done, const int *wanted,
+                           enum bake_form form, struct bake_round *round, struct error *error) {
+  int count = bake_tile_count(tiles), range[2];
+  int *step = malloc((size_t)count * sizeof *step); /* wanted, of tiles that lack all of a step */
+  bool good = step != NULL;
+  *round = (struct bake_round){0};
+  find_range(tiles, done, wanted, range);
+  for (int from = range[0], to; from < range[1] && good; from = to) {
+    size_t box = round->box_count;
+    to = from < 4 ? 4 : 2 * from;
+    if (to > range[1]) to = range[1];
+    for (int tile = 0; tile < count; ++tile) step[tile] = done[tile] <= from ? wanted[tile] : 0;
+    good = add_boxes(tiles, step, from, longest_side(form), round) &&
+           add_passes(round, box, from, to, form == BAKE_MESH);
+  }
+  free(step);
+  return good ? cut_batches(round, form, error) : result_no_memory(error);
 }

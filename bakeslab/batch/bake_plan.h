@@ -1,10 +1,8 @@
 /* bake_plan.h - what a bake renders: which boxes in which passes, cut into batches.
  *
- * Two rounds. The pilot shoots the first passes everywhere. The second round spends the rest of
- * the rays on the tiles (a position and a tile of directions, or the transpose) that the pilot
- * shows to be noisy, and none on tiles that are black and beside black ones. Nothing in a plan
- * depends on the number of jobs, so that several processes make the same one from the same
- * pilot. */
+ * Tiles (a position and a tile of directions, or the transpose) get their passes round by round
+ * (bake_rounds.c). Nothing in a plan depends on the number of jobs, so that several processes make
+ * the same one from the same sums. */
 #ifndef BAKE_PLAN_H
 #define BAKE_PLAN_H
 
@@ -40,7 +38,8 @@ struct bake_unit {
   int box, pass; /* one image of one camera */
 };
 
-/* Units rendered by one POV-Ray process. Both passes of a pair are in the same batch. */
+/* Units rendered by one POV-Ray process. Both passes of a pair are in the same batch if they are in
+ * the same round. */
 struct bake_batch {
   size_t first, count; /* in units[] */
   size_t rays;
@@ -54,8 +53,8 @@ struct bake_round {
 };
 void bake_round_free(struct bake_round *round);
 
-/* `passes` everywhere, one box a camera. */
-enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bake_form form,
+/* Passes from `from` to before `to` everywhere, one box a camera. */
+enum result bake_plan_whole(const struct bake_tiles *tiles, int from, int to, enum bake_form form,
                             struct bake_round *round, struct error *error);
 
 /* About how many batches the pilot has, or a rest of as many passes everywhere; and how many frames
@@ -63,15 +62,24 @@ enum result bake_plan_pilot(const struct bake_tiles *tiles, int passes, enum bak
 void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_form form,
                      double *batches, double *frames);
 
-/* Passes for each tile (bake_allocate.c): `budget` rays a sample on average, between
- * pilot and most, in proportion to the tile's deviation (Neyman's allocation), each the
- * pilot times a power of two, or most. deviation[] is the standard deviation of the mean
- * of one pair of passes, by tile. */
-enum result bake_plan_allocate(const struct bake_tiles *tiles, const double *deviation, int pilot,
-                               int budget, int most, int *passes, struct error *error);
+/* What bounds the rays of a bake. */
+struct bake_limits {
+  int rays;        /* a sample, on average */
+  int rays_max;    /* of a tile */
+  double variance; /* of the flux's, this part of what it is by now is little enough */
+};
 
-/* The passes from `pilot` on that each tile is to get, in as few boxes as possible. */
-enum result bake_plan_rest(const struct bake_tiles *tiles, const int *passes, int pilot,
+/* Passes for each tile (bake_allocate.c): as few as reach the limit of variance, but at most the
+ * limits' rays; in proportion to the tile's deviation (Neyman's allocation), each what the tile has
+ * times a power of two, or rays_max. deviation[] is the standard deviation of what a pair of passes
+ * adds to the flux by a sample, by tile; passes[] what tiles have, and then what they are to get,
+ * which is nothing where they have none. */
+enum result bake_plan_allocate(const struct bake_tiles *tiles, const double *deviation,
+                               const struct bake_limits *limits, int *passes, struct error *error);
+
+/* The passes that tiles lack: from done[] to wanted[], in as few boxes as possible. Both are 0,
+ * 4, 8, 16, ..., but the greatest wanted[] may be any number. */
+enum result bake_plan_rest(const struct bake_tiles *tiles, const int *done, const int *wanted,
                            enum bake_form form, struct bake_round *round, struct error *error);
 
 #endif

@@ -29,9 +29,14 @@ static void direction_numbers(int axis, uint32_t v[BITS]) {
   }
 }
 
+/* Whether a box is of directions at a position, rather than of positions in a direction. */
+static bool is_view(const struct bake_box *box) {
+  return box->size[SLAB_U] == 1 && box->size[SLAB_V] == 1;
+}
+
 /* A camera's own digital shift along an axis: a hash (splitmix64) of its place. */
 static uint32_t own_shift(const struct bake_box *box, int axis) {
-  bool view = box->size[SLAB_U] == 1 && box->size[SLAB_V] == 1;
+  bool view = is_view(box);
   uint64_t x = (uint64_t)(view ? box->first[SLAB_U] : box->first[SLAB_S]);
   uint64_t y = (uint64_t)(view ? box->first[SLAB_V] : box->first[SLAB_T]);
   uint64_t z = ((uint64_t)box->page * 4 + (uint64_t)axis) << 48 ^ y << 24 ^ x;
@@ -52,15 +57,18 @@ static uint32_t own_shift(const struct bake_box *box, int axis) {
  * SIAM Journal on Scientific Computing 30, 2008. */
 void bake_offset(enum bake_offsets kind, const struct bake_box *box, int pass,
                  double offset[SLAB_AXES]) {
-  int pair = pass / 2;
+  bool search = pass == BAKE_SEARCH;
+  int pair = search ? 0 : pass / 2;
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    bool covered = is_view(box) == (axis >= SLAB_S);
     uint32_t v[BITS] = {0}, bits = kind == BAKE_OWN ? own_shift(box, axis) : 0x55555555;
     direction_numbers(axis, v);
     for (int n = 0; n < BITS; ++n)
       if ((uint32_t)pair >> n & 1) bits ^= v[n];
     double from_middle = ((double)bits + 0.5) * 0x1p-32 - 0.5;
-    bool mirrored = (pass % 2 == 1) != (pair == 1 && axis >= SLAB_S);
-    offset[axis] = kind == BAKE_CENTRE ? 0 : mirrored ? -from_middle : from_middle;
+    bool mirrored = (pass > 0 && pass % 2 == 1) != (pair == 1 && axis >= SLAB_S);
+    bool middle = kind == BAKE_CENTRE || (search && !covered);
+    offset[axis] = middle ? 0 : mirrored ? -from_middle : from_middle;
   }
 }
 

@@ -1,50 +1,106 @@
 /* bake_rounds.c - the rounds of a bake.
  *
  * 1. Where all samples get the same number of rays: one round, and that is all.
- * 2. Else the pilot: PILOT passes of every tile, summed (bake_sum.h).
- * 3. The standard deviation of each tile, by the scatter of its pairs of passes.
- * 4. The passes of each tile, within the budget (bake_allocate.c); the same of all where the pilot
- *    met the light too seldom to tell.
- * 5. The second round renders what is still missing of them (bake_plan.h).
+ * 2. Else a pass that looks for light, and meets every beam that is a sample wide (bake_rays.h).
+ * 3. Where it found some, and beside it, tiles get FIRST passes; so on until nothing new shows
+ *    (bake_grow.h). What stays dark gets no more.
+ * 4. The standard deviation of each tile, by the scatter of its pairs of passes.
+ * 5. The passes of each tile: as few as leave no more noise than matters (bake_need.h), within the
+ *    budget (bake_allocate.c). The same of all, where the search met the light too seldom to tell.
+ * 6. The last round renders what is still missing of them (bake_plan.h).
  *
- * A shard sums all of the pilot, since it plans by that, but of the last round it renders its own
- * part alone and sums nothing. */
+ * A shard sums all rounds but the last, since it plans by them; of that it renders its own part
+ * alone and sums nothing. */
 #include "batch/bake_rounds.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-enum { PILOT = 4 }; /* with fewer passes, a pilot misses light */
+#include "batch/bake_grow.h"
+#include "batch/bake_need.h"
+
+/* With fewer passes, the scatter of their pairs says nothing. */
+enum { FIRST = 4 };
 
 struct bake_effort bake_effort_of(const struct bake_options *options) {
   return (struct bake_effort){.rays = options->rays,
                               .rays_max = options->rays_max,
-                              .adaptive = !options->uniform && options->rays > PILOT,
+                              .adaptive = !options->uniform && options->rays > FIRST,
                               .shard = options->shard,
                               .shards = options->shards};
 }
 
 int bake_rounds_first(const struct bake_effort *effort) {
-  return effort->adaptive ? PILOT : effort->rays;
+  return effort->adaptive ? 1 : effort->rays;
 }
 
-/* Steps 3 and 4. Of a source that few rays meet, a pilot shows the places where it was lucky: what
- * more rays would find elsewhere is missing for good. Then all tiles get the same. */
-static enum result plan_rest(const struct bake_work *work, struct bake_rounds *rounds,
+/* What rounds are planned by. */
+struct plan {
+  int *done, *wanted; /* passes, by tile; owned */
+  double *deviation;  /* owned */
+  size_t tiles;
+};
+
+static enum result make_plan(const struct bake_tiles *tiles, struct plan *plan,
                              struct error *error) {
+  size_t count = plan->tiles = (size_t)bake_tile_count(tiles);
+  plan->done = malloc(count * sizeof *plan->done);
+  plan->wanted = malloc(count * sizeof *plan->wanted);
+  plan->deviation = malloc(count * sizeof *plan->deviation);
+  if (!plan->done || !plan->wanted || !plan->deviation) return result_no_memory(error);
+  for (size_t n = 0; n < count; ++n) plan->done[n] = plan->wanted[n] = 0;
+  return RESULT_OK;
+}
+
+static void free_plan(struct plan *plan) {
+  free(plan->done);
+  free(plan->wanted);
+  free(plan->deviation);
+}
+
+/* Renders what tiles lack of plan->wanted. */
+static enum result run_rest(const struct bake_work *work, struct bake_rounds *rounds,
+                            struct plan *plan, struct bake_sum *sum, const char *label,
+                            struct bake_report *report, struct error *error) {
+  struct bake_round round;
+  enum result result =
+      bake_plan_rest(&rounds->tiles, plan->done, plan->wanted, work->look.form, &round, error);
+  if (result == RESULT_OK) result = bake_run(work, &round, sum, label, report, error);
+  memcpy(plan->done, plan->wanted, plan->tiles * sizeof *plan->done);
+  bake_round_free(&round);
+  return result;
+}
+
+/* Step 5. Of a source that few rays meet, a search shows the places where it was lucky: what more
+ * rays would find elsewhere is missing for good. */
+static enum result find_passes(const struct bake_work *work, const struct bake_rounds *rounds,
+                               struct plan *plan, struct error *error) {
   const struct bake_effort *effort = &work->effort;
-  size_t tiles = (size_t)bake_tile_count(&rounds->tiles);
-  double *deviation = malloc(tiles * sizeof *deviation);
-  int *wanted = malloc(tiles * sizeof *wanted);
-  enum result result = deviation && wanted ? RESULT_OK : result_no_memory(error);
-  if (result == RESULT_OK) result = bake_sum_deviation(rounds->sum, deviation, error);
-  for (size_t n = 0; n < tiles && result == RESULT_OK; ++n) wanted[n] = effort->rays;
-  if (result == RESULT_OK && bake_sum_met_light(rounds->sum))
-    result = bake_plan_allocate(&rounds->tiles, deviation, PILOT, effort->rays, effort->rays_max,
-                                wanted, error);
+  struct bake_limits limits = {.rays = effort->rays, .rays_max = effort->rays_max};
+  enum result result = bake_sum_deviation(rounds->sum, plan->deviation, error);
+  if (result == RESULT_OK) result = bake_need(work, rounds->sum, &limits.variance, error);
   if (result == RESULT_OK)
-    result = bake_plan_rest(&rounds->tiles, wanted, PILOT, work->look.form, &rounds->rest, error);
-  free(deviation);
-  free(wanted);
+    result = bake_plan_allocate(&rounds->tiles, plan->deviation, &limits, plan->wanted, error);
+  return result;
+}
+
+/* Steps 3 to 6. */
+static enum result run_adaptive(const struct bake_work *work, const char *label,
+                                struct bake_rounds *rounds, struct bake_report *report,
+                                struct error *error) {
+  struct plan plan = {0};
+  enum result result = make_plan(&rounds->tiles, &plan, error);
+  bool met_light = bake_sum_met_light(rounds->sum);
+  while (result == RESULT_OK && met_light &&
+         bake_grow(&rounds->tiles, rounds->sum, FIRST, plan.wanted) > 0)
+    result = run_rest(work, rounds, &plan, rounds->sum, "pilot", report, error);
+  for (size_t n = 0; n < plan.tiles && result == RESULT_OK && !met_light; ++n)
+    plan.wanted[n] = work->effort.rays;
+  if (result == RESULT_OK && met_light) result = find_passes(work, rounds, &plan, error);
+  if (result == RESULT_OK)
+    result = run_rest(work, rounds, &plan, work->effort.shards > 1 ? NULL : rounds->sum, label,
+                      report, error);
+  free_plan(&plan);
   return result;
 }
 
@@ -53,26 +109,24 @@ enum result bake_rounds_run(const struct bake_work *work, const char *label,
                             struct error *error) {
   const struct bake_effort *effort = &work->effort;
   bool adaptive = effort->adaptive, shard = effort->shards > 1;
-  int first = bake_rounds_first(effort), most = adaptive ? effort->rays_max : first;
+  int from = adaptive ? BAKE_SEARCH : 0, most = adaptive ? effort->rays_max : effort->rays;
+  struct bake_round whole = {0};
   *rounds = (struct bake_rounds){0};
   enum result result = bake_tiles_init(&rounds->tiles, work->slabs, work->lamp->slab_count,
                                        work->look.form == BAKE_TRANSPOSED, error);
   if (result == RESULT_OK) result = bake_sum_new(&rounds->tiles, most, &rounds->sum, error);
   if (result == RESULT_OK)
-    result = bake_plan_pilot(&rounds->tiles, first, work->look.form, &rounds->pilot, error);
+    result = bake_plan_whole(&rounds->tiles, from, from + bake_rounds_first(effort),
+                             work->look.form, &whole, error);
   if (result == RESULT_OK)
-    result = bake_run(work, &rounds->pilot, adaptive || !shard ? rounds->sum : NULL,
-                      adaptive ? "pilot" : label, report, error);
-  if (!adaptive) return result;
-  if (result == RESULT_OK) result = plan_rest(work, rounds, error);
-  if (result == RESULT_OK)
-    result = bake_run(work, &rounds->rest, shard ? NULL : rounds->sum, label, report, error);
+    result = bake_run(work, &whole, adaptive || !shard ? rounds->sum : NULL,
+                      adaptive ? "search" : label, report, error);
+  bake_round_free(&whole);
+  if (result == RESULT_OK && adaptive) result = run_adaptive(work, label, rounds, report, error);
   return result;
 }
 
 void bake_rounds_free(struct bake_rounds *rounds) {
   bake_sum_free(rounds->sum);
-  bake_round_free(&rounds->pilot);
-  bake_round_free(&rounds->rest);
   bake_tiles_free(&rounds->tiles);
 }

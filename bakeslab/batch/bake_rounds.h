@@ -1,5 +1,5 @@
-/* bake_rounds.h - the rays of a bake, summed: pilot passes everywhere, then the rest of
- * the passes where those were noisy. */
+/* bake_rounds.h - the rays of a bake, summed: one everywhere, more around what they find, and the rest
+ * of the passes where those were noisy. */
 #ifndef BAKE_ROUNDS_H
 #define BAKE_ROUNDS_H
 
@@ -7,14 +7,13 @@
 
 struct bake_rounds {
   struct bake_tiles tiles;
-  struct bake_round pilot, rest;
   struct bake_sum *sum; /* whole, unless work->effort.shards > 1 */
 };
 
 /* What the user asks for. */
 struct bake_effort bake_effort_of(const struct bake_options *options);
 
-/* Passes everywhere before the second round; all of them, where there is none. */
+/* Passes of the first round; all of them, where there is no other. */
 int bake_rounds_first(const struct bake_effort *effort);
 
 /* Renders and sums work->slabs, showing progress under the label. Free the rounds with

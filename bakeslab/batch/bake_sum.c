@@ -3,10 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of one sample, over the pairs so far. */
+/* Of one sample, over the pairs so far; a ray without its antithesis counts as a pair. */
 struct cell {
   double rgb[3]; /* sum over rays */
   double y, yy;  /* sum of the pairs' mean luminances, and of their squares */
+  double first;  /* luminance of the last ray of an even pass */
+  float found;   /* luminance of the ray that looked for light; not in the sums */
   int rays, pairs;
 };
 
@@ -17,6 +19,7 @@ struct bake_sum {
   double *flux;     /* [tile][pair]: luminous flux of the tile by that pair */
   int *tile_pairs;  /* pairs that each tile got */
   double brightest; /* luminance of a ray */
+  bool searched;    /* each sample had a ray that looked for light */
 };
 
 enum result bake_sum_new(const struct bake_tiles *tiles, int most_passes, struct bake_sum **out,
@@ -61,56 +64,60 @@ static double cell_weight(const struct slab *slab, const int at[SLAB_AXES]) {
   return weight / (r * r);
 }
 
-static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int pair,
-                    const float *rgb, const float *mirrored) {
+static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int pass,
+                    const float *rgb) {
   const struct slab *slab = &sum->tiles->slabs[page];
   const int *n = slab->samples;
   size_t row = (size_t)at[SLAB_V] * (size_t)n[SLAB_T] + (size_t)at[SLAB_T];
   size_t column = (size_t)at[SLAB_U] * (size_t)n[SLAB_S] + (size_t)at[SLAB_S];
   struct cell *cell = &sum->pages[page][row * (size_t)slab_width(slab) + column];
-  double y = slab_luminance(rgb);
+  double y = slab_luminance(rgb), before = 0; /* of the pair, without this ray */
   sum->brightest = fmax(sum->brightest, y);
-  for (int c = 0; c < 3; ++c) cell->rgb[c] += (double)rgb[c];
-  if (mirrored) {
-    sum->brightest = fmax(sum->brightest, slab_luminance(mirrored));
-    y = 0.5 * (y + slab_luminance(mirrored));
-    for (int c = 0; c < 3; ++c) cell->rgb[c] += (double)mirrored[c];
+  if (pass == BAKE_SEARCH) {
+    cell->found = (float)y;
+    sum->searched = true;
+    return;
   }
-  cell->y += y;
-  cell->yy += y * y;
-  cell->rays += mirrored ? 2 : 1;
-  ++cell->pairs;
-  int tile = bake_tile_at(sum->tiles, page, at);
-  sum->flux[(size_t)tile * (size_t)sum->most_pairs + (size_t)pair] += y * cell_weight(slab, at);
+  for (int c = 0; c < 3; ++c) cell->rgb[c] += (double)rgb[c];
+  if (pass % 2) {
+    before = cell->first;
+    y = 0.5 * (before + y);
+  } else {
+    cell->first = y;
+    ++cell->pairs;
+  }
+  cell->y += y - before;
+  cell->yy += y * y - before * before;
+  ++cell->rays;
+  int tile = bake_tile_at(sum->tiles, page, at), pair = pass / 2;
+  sum->flux[(size_t)tile * (size_t)sum->most_pairs + (size_t)pair] +=
+      (y - before) * cell_weight(slab, at);
   if (sum->tile_pairs[tile] <= pair) sum->tile_pairs[tile] = pair + 1;
 }
 
-/* The rays of one box in a pass and, unless NULL, in its antithesis. */
-static void add_box(struct bake_sum *sum, const struct bake_box *box, int pass, const float *rgb,
-                    const float *mirrored) {
+/* The rays of one box in a pass. */
+static void add_box(struct bake_sum *sum, const struct bake_box *box, int pass, const float *rgb) {
   const int *first = box->first, *size = box->size;
   int at[SLAB_AXES];
   for (at[1] = first[1]; at[1] < first[1] + size[1]; ++at[1])
     for (at[3] = first[3]; at[3] < first[3] + size[3]; ++at[3])
       for (at[0] = first[0]; at[0] < first[0] + size[0]; ++at[0])
-        for (at[2] = first[2]; at[2] < first[2] + size[2]; ++at[2]) {
-          add_ray(sum, box->page, at, pass / 2, rgb, mirrored);
-          rgb += 3;
-          if (mirrored) mirrored += 3;
-        }
+        for (at[2] = first[2]; at[2] < first[2] + size[2]; ++at[2], rgb += 3)
+          add_ray(sum, box->page, at, pass, rgb);
 }
 
 void bake_sum_add(struct bake_sum *sum, const struct bake_round *round,
                   const struct bake_batch *batch, const float *rgb) {
   const struct bake_unit *unit = round->units + batch->first, *end = unit + batch->count;
-  while (unit < end) {
+  for (; unit < end; ++unit) {
     const struct bake_box *box = &round->boxes[unit->box];
-    size_t floats = 3 * (size_t)bake_box_rays(box);
-    bool pair = unit + 1 < end && unit[1].box == unit->box && unit[1].pass == unit->pass + 1;
-    add_box(sum, box, unit->pass, rgb, pair ? rgb + floats : NULL);
-    rgb += pair ? 2 * floats : floats;
-    unit += pair ? 2 : 1;
+    add_box(sum, box, unit->pass, rgb);
+    rgb += 3 * (size_t)bake_box_rays(box);
   }
+}
+
+static double mean_luminance(const struct cell *cell) {
+  return cell->pairs ? cell->y / cell->pairs : 0;
 }
 
 /* Variance of a pair's mean at one sample. */
@@ -132,7 +139,7 @@ enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, st
       int at[SLAB_AXES];
       slab_locate(slab, n, at);
       int tile = bake_tile_at(sum->tiles, page, at);
-      deviation[tile] += variance(&sum->pages[page][n]);
+      deviation[tile] += variance(&sum->pages[page][n]) * pow(cell_weight(slab, at), 2);
       ++count[tile];
     }
   }
@@ -141,15 +148,20 @@ enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, st
   return RESULT_OK;
 }
 
+bool bake_sum_is_lit(const struct bake_sum *sum, int page, size_t sample) {
+  const struct cell *cell = &sum->pages[page][sample];
+  return cell->yy > 0 || cell->found != 0;
+}
+
 bool bake_sum_met_light(const struct bake_sum *sum) {
   double all = 0, squares = 0;
   for (int page = 0; page < sum->tiles->pages; ++page)
     for (size_t n = 0; n < slab_sample_count(&sum->tiles->slabs[page]); ++n) {
       int at[SLAB_AXES];
       slab_locate(&sum->tiles->slabs[page], n, at);
-      double weight = cell_weight(&sum->tiles->slabs[page], at);
-      all += weight * sum->pages[page][n].y;
-      squares += weight * weight * sum->pages[page][n].yy;
+      double light = cell_weight(&sum->tiles->slabs[page], at) * (double)sum->pages[page][n].found;
+      all += light;
+      squares += light * light;
     }
   return all * all >= squares * fmin(1000, 4 * bake_tile_count(sum->tiles));
 }
@@ -229,8 +241,8 @@ static double brightest_ray(const struct bake_sum *sum, int page) {
     int at[SLAB_AXES];
     slab_locate(slab, n, at);
     const struct cell *cell = &sum->pages[page][n];
-    double more = sum->brightest - cell->y / cell->pairs;
-    most = fmax(most, cell_weight(slab, at) * more / cell->rays);
+    double more = sum->brightest - mean_luminance(cell);
+    most = fmax(most, cell_weight(slab, at) * more / fmax(1, cell->rays));
   }
   return most;
 }
@@ -266,16 +278,19 @@ static double flux_error(const struct bake_sum *sum, enum bake_offsets offsets, 
 void bake_sum_noise(const struct bake_sum *sum, double gain, enum bake_offsets offsets,
                     struct bake_noise *noise) {
   double squares = 0, luminance = 0, rays = 0, samples = 0;
+  bool pairs = false;
   *noise = (struct bake_noise){.known = true};
   for (int page = 0; page < sum->tiles->pages; ++page)
     for (size_t n = 0; n < slab_sample_count(&sum->tiles->slabs[page]); ++n) {
       const struct cell *cell = &sum->pages[page][n];
-      squares += variance(cell) / cell->pairs;
-      luminance += cell->y / cell->pairs;
-      rays += cell->rays;
+      squares += variance(cell) / fmax(1, cell->pairs);
+      luminance += mean_luminance(cell);
+      rays += cell->rays + sum->searched;
       samples += 1;
-      noise->known &= cell->pairs > 1;
+      noise->known &= cell->pairs > 1 || cell->yy == 0;
+      pairs |= cell->pairs > 1;
     }
+  noise->known &= pairs;
   noise->mean = luminance / samples / gain;
   noise->rays = rays / samples;
   noise->flux = flux_error(sum, offsets, noise->known);
@@ -290,7 +305,7 @@ enum result bake_sum_finish(const struct bake_sum *sum, double gain, struct slab
     const struct cell *cell = sum->pages[page];
     float *rgb = pages[page].rgb;
     for (size_t n = 0; n < slab_sample_count(&pages[page]); ++n, ++cell)
-      for (int c = 0; c < 3; ++c) *rgb++ = (float)(cell->rgb[c] / cell->rays / gain);
+      for (int c = 0; c < 3; ++c) *rgb++ = (float)(cell->rgb[c] / fmax(1, cell->rays) / gain);
   }
   return RESULT_OK;
 }

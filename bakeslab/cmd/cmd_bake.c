@@ -49,6 +49,11 @@ static const struct argp_option options[] = {
      "everywhere too if few of those met a small source",
      2},
     {"rays-max", KEY(rays_max), "K", 0, "the most rays for a sample (default 4 x --rays)", 2},
+    {"noise", KEY(noise), "T", 0,
+     "shoot no more rays than make the noise of irradiance at --for-distance T (relative RMS; "
+     "default: a third of the error by the number of samples, or of --tolerance). With --rays and "
+     "without this, all of those are shot",
+     2},
     {"uniform", KEY(uniform), 0, 0,
      "the same number of rays for all samples, at the same places of their cells", 2},
     {"centre", KEY(centre), 0, 0,
@@ -63,9 +68,10 @@ static const struct argp_option options[] = {
      "an effect matters if it changes the flux by more than this part of it, or the light by "
      "direction or position by twice that, in RMS (default 0.01)",
      3},
-    {"window", KEY(window_auto), "declared|auto", 0,
-     "auto: fit the st windows to the light, wider too than the script declares unless it says "
-     "Canned_Window_Is_Final",
+    {"window", KEY(window), "declared|narrowed|auto", 0,
+     "narrowed (the default): a large slab's st windows that are much wider than the light are "
+     "fitted to it, so that samples lie where they are needed. auto: all are, and become wider "
+     "than the script declares if light is there, unless it says Canned_Window_Is_Final",
      3},
     {"tolerance", KEY(tolerance), "T", 0,
      "choose the fewest samples for which the error of irradiance is at most T (relative RMS) at "
@@ -168,11 +174,12 @@ static const struct value values[] = {
     {KEY(precision), VALUE_WORD, BAKE(precision), SLAB_PRECISION_LOGLUV, 0},
     {KEY(rays), VALUE_WHOLE, BAKE(rays), 1, 4096},
     {KEY(rays_max), VALUE_WHOLE, BAKE(rays_max), 1, 65536},
+    {KEY(noise), VALUE_POSITIVE, BAKE(noise), 0, 0},
     {KEY(uniform), VALUE_FLAG, BAKE(uniform), 0, 0},
     {KEY(centre), VALUE_FLAG, BAKE(centre), 0, 0},
     {KEY(effects), VALUE_TEXT, BAKE(effects), 0, 0},
     {KEY(effect_threshold), VALUE_POSITIVE, BAKE(effect_threshold), 0, 0},
-    {KEY(window_auto), VALUE_EITHER, BAKE(window_auto), 0, 0},
+    {KEY(window), VALUE_WORD, BAKE(window), BAKE_WINDOW_DECLARED, 0},
     {KEY(tolerance), VALUE_POSITIVE, BAKE(tolerance), 0, 0},
     {KEY(for_distance), VALUE_POSITIVE, BAKE(for_distance), 0, 0},
     {KEY(form), VALUE_WORD, BAKE(form), 0, 0},
@@ -219,7 +226,8 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
 /* What only the options together can tell. */
 static bool check_rays(struct bake_options *bake) {
   if (bake->centre && bake->rays == 0) bake->rays = 1;
-  if (bake->rays == 0) bake->rays = 16;
+  if (bake->rays > 0 && bake->noise == 0) bake->noise = NAN;
+  if (bake->rays == 0) bake->rays = bake->noise > 0 ? 64 : 16;
   if (bake->centre && bake->rays != 1) {
     cli_complain("--centre: shoots one ray a sample; leave --rays out");
     return false;
@@ -240,6 +248,7 @@ static bool check_rays(struct bake_options *bake) {
 /* A tolerance finds what neither --uv nor --st fixes. */
 static void set_sizes(struct bake_options *bake) {
   if (bake->for_distance > 0 && bake->tolerance == 0) bake->tolerance = 0.01;
+  if (bake->noise == 0) bake->noise = bake->tolerance / 3;
   bake->uv_free = bake->uv[0] == 0;
   bake->st_free = bake->st[0] == 0;
   for (int k = 0; k < 2; ++k) {
@@ -287,6 +296,7 @@ int cmd_bake(int argc, char **argv) {
                                          .effects = "auto",
                                          .effect_threshold = 0.01,
                                          .form = -1,
+                                         .window = BAKE_WINDOW_NARROWED,
                                          .jobs = processors > 0 ? (int)processors : 1,
                                          .shards = 1,
                                          .warn = warn,

@@ -1,12 +1,15 @@
 /* probe_window.c - windows fitted to the light.
  *
- * 1. A small bake without interreflection, 24 x 24 directions at a few positions.
- * 2. With interreflection, which is expensive and smooth, a second one of 10 x 10 directions.
- * 3. Along s and t, leave out the samples at either end that hold no more than 1/8000 of a page's
- *    light together; widen what is left by a cell, whose rays may have missed some.
+ * 1. A small bake without interreflection, 24 x 24 directions at as many positions as a slab usually
+ *    has: a mirror sends the light of each position somewhere else.
+ * 2. With interreflection, which is expensive and smooth, a second one of 10 x 10 directions at few
+ *    positions.
+ * 3. Along s and t, leave out the samples at either end that hold no more than 1/4000 of a page's
+ *    flux together; widen what is left by half a cell, whose rays may have missed some.
  * 4. The window is the part of the declared one that either bake needs.
- * 5. Unless the script says Canned_Window_Is_Final, one more bake looks at slopes up to REACH. The
- *    window grows until no more than 1/800 of the page's flux is beyond each end. */
+ * 5. To narrow windows, that is all; a page whose light fills most of its window keeps it.
+ * 6. Else, unless the script says Canned_Window_Is_Final, one more bake looks at slopes up to REACH.
+ *    The window grows until no more than 1/800 of the page's flux is beyond each end. */
 #include "probe/probe_window.h"
 
 #include <math.h>
@@ -15,54 +18,17 @@
 #include <string.h>
 
 #include "probe/probe_bake.h"
-#include "slab/slab_profile.h"
 
 static const double negligible = 1.0 / 4000, negligible_beyond = 1.0 / 800, REACH = 6;
-enum { REACH_DIRECTIONS = 48 };
+/* Part of the samples that narrower windows must save to be worth the change. */
+static const double least_saved = 0.1;
+enum { DIRECTIONS = 24, FEW_DIRECTIONS = 10, MOST_DIRECTIONS = 48 };
 
-/* Step 3: widens window[2] to hold the light of one axis of a page. */
-static void widen(const struct slab *page, int axis, const double *profile, double window[2]) {
-  int count = page->samples[axis], low = 0, high = count - 1;
-  double all = 0, below = 0, above = 0;
-  for (int k = 0; k < count; ++k) all += profile[k];
-  if (all == 0) return;
-  while (low < count && below + profile[low] <= negligible * all) below += profile[low++];
-  while (high >= 0 && above + profile[high] <= negligible * all) above += profile[high--];
-  double step = slab_spacing(page, axis);
-  window[0] = fmin(window[0], slab_position(page, axis, low) - 1.5 * step);
-  window[1] = fmax(window[1], slab_position(page, axis, high) + 1.5 * step);
-}
-
-static enum result widen_all(const struct probe_bake *bake, double (*windows)[4],
-                             struct error *error) {
-  enum result result = RESULT_OK;
-  for (int n = 0; n < bake->count && result == RESULT_OK; ++n) {
-    struct slab_profile profile;
-    result = slab_profile(&bake->pages[n], &profile, error);
-    for (int k = 0; k < 2 && result == RESULT_OK; ++k)
-      widen(&bake->pages[n], SLAB_S + k, profile.axis[SLAB_S + k], windows[n] + 2 * k);
-    slab_profile_free(&profile);
-  }
-  return result;
-}
-
-/* ---- Step 5 ---- */
-
-static struct slab reaching(const struct slab *slab) {
-  struct slab wide = *slab;
-  for (int k = 0; k < 4; ++k) {
-    double low = slab->st_window[k / 2 * 2], high = slab->st_window[k / 2 * 2 + 1];
-    double half = fmax(REACH, high - low);
-    wide.st_window[k] = (low + high) / 2 + (k % 2 ? half : -half);
-  }
-  return wide;
-}
-
-/* The light of each index along s or t, up to a factor: radiance times cosine and solid angle. */
-static void sum_flux(const struct slab *page, int axis, double flux[REACH_DIRECTIONS]) {
+/* The flux of each index along s or t, up to a factor: radiance times cosine and solid angle. */
+static void sum_flux(const struct slab *page, int axis, double flux[MOST_DIRECTIONS]) {
   const float *rgb = page->rgb;
   int at[SLAB_AXES];
-  for (int k = 0; k < REACH_DIRECTIONS; ++k) flux[k] = 0;
+  for (int k = 0; k < MOST_DIRECTIONS; ++k) flux[k] = 0;
   for (size_t n = 0; n < slab_sample_count(page); ++n, rgb += 3) {
     double r = 1;
     slab_locate(page, n, at);
@@ -75,14 +41,39 @@ static void sum_flux(const struct slab *page, int axis, double flux[REACH_DIRECT
   }
 }
 
+/* Step 3: widens window[2] to hold the light of one axis of a page. */
+static void widen(const struct slab *page, int axis, double window[2]) {
+  int count = page->samples[axis], low = 0, high = count - 1;
+  double flux[MOST_DIRECTIONS], all = 0, below = 0, above = 0, step = slab_spacing(page, axis);
+  sum_flux(page, axis, flux);
+  for (int k = 0; k < count; ++k) all += flux[k];
+  if (all == 0) return;
+  while (low < count && below + flux[low] <= negligible * all) below += flux[low++];
+  while (high >= 0 && above + flux[high] <= negligible * all) above += flux[high--];
+  window[0] = fmin(window[0], slab_position(page, axis, low) - step);
+  window[1] = fmax(window[1], slab_position(page, axis, high) + step);
+}
+
+/* ---- Step 6 ---- */
+
+static struct slab reaching(const struct slab *slab) {
+  struct slab wide = *slab;
+  for (int k = 0; k < 4; ++k) {
+    double low = slab->st_window[k / 2 * 2], high = slab->st_window[k / 2 * 2 + 1];
+    double half = fmax(REACH, high - low);
+    wide.st_window[k] = (low + high) / 2 + (k % 2 ? half : -half);
+  }
+  return wide;
+}
+
 /* Grows window[2] of one axis by what the wide page shows beyond it. */
 static void grow(const struct slab *wide, int axis, double window[2]) {
-  double flux[REACH_DIRECTIONS], all = 0, beyond, step = slab_spacing(wide, axis);
+  double flux[MOST_DIRECTIONS], all = 0, beyond, step = slab_spacing(wide, axis);
   double declared[2] = {window[0], window[1]};
   sum_flux(wide, axis, flux);
-  for (int k = 0; k < REACH_DIRECTIONS; ++k) all += flux[k];
+  for (int k = 0; k < MOST_DIRECTIONS; ++k) all += flux[k];
   for (int end = 0; end < 2 && all > 0; ++end) {
-    int k = end ? REACH_DIRECTIONS - 1 : 0, inward = end ? -1 : 1;
+    int k = end ? MOST_DIRECTIONS - 1 : 0, inward = end ? -1 : 1;
     beyond = flux[k];
     while (beyond <= negligible_beyond * all) beyond += flux[k += inward];
     double edge = slab_position(wide, axis, k) - inward * step / 2;
@@ -94,7 +85,7 @@ static void grow(const struct slab *wide, int axis, double window[2]) {
 
 static enum result probe_beyond(const struct bake_work *work, struct slab *slabs, int positions,
                                 struct bake_report *report, struct error *error) {
-  const int samples[SLAB_AXES] = {positions, positions, REACH_DIRECTIONS, REACH_DIRECTIONS};
+  const int samples[SLAB_AXES] = {positions, positions, MOST_DIRECTIONS, MOST_DIRECTIONS};
   int count = work->lamp->slab_count;
   struct probe_bake bake = {0};
   struct slab *wide = malloc((size_t)count * sizeof *wide); /* owns nothing */
@@ -109,50 +100,81 @@ static enum result probe_beyond(const struct bake_work *work, struct slab *slabs
   return result;
 }
 
-/* Step 4, and the line that tells of it. */
+static double area(const double window[4]) {
+  return (window[1] - window[0]) * (window[3] - window[2]);
+}
+
+/* Steps 4 and 5, and the line that tells of it. */
 static void fit(struct slab *slab, int page, const double light[4], const double before[4],
-                struct probe_windows *windows) {
+                bool narrow, struct probe_windows *windows) {
   double *window = slab->st_window;
   for (int k = 0; k < 4; k += 2) {
     if (light[k] > light[k + 1]) continue; /* no light */
     if (window[k] == before[k]) window[k] = fmax(window[k], light[k]);
     if (window[k + 1] == before[k + 1]) window[k + 1] = fmin(window[k + 1], light[k + 1]);
   }
-  double share = (window[1] - window[0]) * (window[3] - window[2]) / (before[1] - before[0]) /
-                 (before[3] - before[2]);
+  if (narrow && area(window) > (1 - least_saved) * area(before))
+    memcpy(window, before, sizeof slab->st_window);
+  if (narrow && !memcmp(window, before, sizeof slab->st_window)) return;
   size_t used = strlen(windows->line);
   snprintf(windows->line + used, sizeof windows->line - used,
            "%spage %d: %.3g %% of the declared %.4g to %.4g, %.4g to %.4g", used ? "; " : "",
-           page + 1, 100 * share, before[0], before[1], before[2], before[3]);
+           page + 1, 100 * area(window) / area(before), before[0], before[1], before[2], before[3]);
+}
+
+/* Of step 1. */
+static int positions(const struct bake_work *work) {
+  return work->lamp->slab_count > 1 ? 8 : 16;
+}
+
+bool probe_window_pays(const struct bake_work *work) {
+  const struct slab *page = &work->slabs[0];
+  double samples = (double)slab_sample_count(page);
+  return work->options->window == BAKE_WINDOW_AUTO ||
+         (work->options->window == BAKE_WINDOW_NARROWED && work->effort.adaptive &&
+          samples >= pow(positions(work) * DIRECTIONS, 2));
+}
+
+/* Steps 1 to 3: of each page, the part of its window that is lit. */
+static enum result find_light(const struct bake_work *work, const struct slab *slabs,
+                              double (*light)[4], struct bake_report *report,
+                              struct error *error) {
+  int pages = work->lamp->slab_count;
+  struct effects effects = *work->look.effects;
+  int bakes = effects.setting[INTERREFLECTION] > 0 ? 2 : 1;
+  enum result result = RESULT_OK;
+  for (int n = 0; n < pages; ++n)
+    for (int k = 0; k < 4; ++k) light[n][k] = k % 2 ? -INFINITY : INFINITY;
+  for (int n = 0; n < bakes && result == RESULT_OK; ++n) {
+    int uv = n ? positions(work) / 4 : positions(work), st = n ? FEW_DIRECTIONS : DIRECTIONS;
+    const int samples[SLAB_AXES] = {uv, uv, st, st};
+    struct probe_bake bake;
+    effects.setting[INTERREFLECTION] = n ? work->look.effects->setting[INTERREFLECTION] : 0;
+    result = probe_bake(work, slabs, &effects, samples, 1, &bake, report, error);
+    for (int page = 0; page < bake.count && result == RESULT_OK; ++page)
+      for (int k = 0; k < 2; ++k) widen(&bake.pages[page], SLAB_S + k, light[page] + 2 * k);
+    probe_bake_free(&bake);
+  }
+  return result;
 }
 
 enum result probe_window(const struct bake_work *work, struct slab *slabs,
                          struct probe_windows *windows, struct bake_report *report,
                          struct error *error) {
-  enum { MOST_PAGES = 64 };
-  int count = work->lamp->slab_count, positions = count > 1 ? 2 : 4;
-  struct effects effects = *work->look.effects;
-  int bakes = effects.setting[INTERREFLECTION] > 0 ? 2 : 1;
-  double light[MOST_PAGES][4], before[MOST_PAGES][4];
+  int pages = work->lamp->slab_count;
+  bool narrow = work->options->window == BAKE_WINDOW_NARROWED;
+  double(*light)[4] = malloc((size_t)pages * sizeof *light);
+  double(*before)[4] = malloc((size_t)pages * sizeof *before);
   *windows = (struct probe_windows){0};
-  if (count > MOST_PAGES)
-    return result_fail(error, RESULT_BAD, "--window auto: more than %d pages", MOST_PAGES);
-  for (int n = 0; n < MOST_PAGES; ++n)
-    for (int k = 0; k < 4; ++k) light[n][k] = k % 2 ? -INFINITY : INFINITY;
-  enum result result = RESULT_OK;
-  for (int n = 0; n < bakes && result == RESULT_OK; ++n) {
-    int directions = n == 0 ? 24 : 10;
-    const int samples[SLAB_AXES] = {positions, positions, directions, directions};
-    struct probe_bake bake;
-    effects.setting[INTERREFLECTION] = n == 0 ? 0 : work->look.effects->setting[INTERREFLECTION];
-    result = probe_bake(work, slabs, &effects, samples, 1, &bake, report, error);
-    if (result == RESULT_OK) result = widen_all(&bake, light, error);
-    probe_bake_free(&bake);
-  }
-  for (int n = 0; n < count; ++n) memcpy(before[n], slabs[n].st_window, sizeof before[n]);
-  if (result == RESULT_OK && !work->lamp->final_window)
-    result = probe_beyond(work, slabs, positions, report, error);
-  for (int n = 0; n < count && result == RESULT_OK; ++n)
-    fit(&slabs[n], n, light[n], before[n], windows);
+  enum result result = light && before ? RESULT_OK : result_no_memory(error);
+  if (result == RESULT_OK) result = find_light(work, slabs, light, report, error);
+  for (int n = 0; n < pages && result == RESULT_OK; ++n)
+    memcpy(before[n], slabs[n].st_window, sizeof before[n]);
+  if (result == RESULT_OK && !narrow && !work->lamp->final_window)
+    result = probe_beyond(work, slabs, positions(work) / 2, report, error);
+  for (int n = 0; n < pages && result == RESULT_OK; ++n)
+    fit(&slabs[n], n, light[n], before[n], narrow, windows);
+  free(light);
+  free(before);
   return result;
 }

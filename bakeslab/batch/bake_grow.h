@@ -1,0 +1,11 @@
+/* bake_grow.h - where a bake looks again: at what its rays found, and around it. */
+#ifndef BAKE_GROW_H
+#define BAKE_GROW_H
+
+#include "batch/bake_sum.h"
+
+/* Raises passes[], by tile, to at least `to` where a sample met light, or one that did is within a
+ * few samples: the beam that it belongs to may be there too. Returns how many tiles it raised. */
+int bake_grow(const struct bake_tiles *tiles, const struct bake_sum *sum, int to, int *passes);
+
+#endif
