@@ -57,7 +57,7 @@ void bake_round_free(struct bake_round *round);
 enum result bake_plan_whole(const struct bake_tiles *tiles, int from, int to, enum bake_form form,
                             struct bake_round *round, struct error *error);
 
-/* About how many batches the pilot has, or a rest of as many passes everywhere; and how many frames
+/* About how many batches as many passes everywhere have; and how many frames
  * of animations in all. */
 void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_form form,
                      double *batches, double *frames);

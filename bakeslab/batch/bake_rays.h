@@ -27,9 +27,9 @@ int bake_box_rays(const struct bake_box *box);
  * parts of the lamp that repeat as the cells do. */
 enum bake_offsets { BAKE_CENTRE, BAKE_SHARED, BAKE_OWN };
 
-/* The pass that looks for light, before all others. Its cameras are at the middles of the cells, and
- * a camera's rays one cell apart: a beam that is a sample wide along every axis is met by just one
- * of its rays, wherever it lies. No sample contains them. */
+/* The pass that looks for light, before all others. Its cameras are at the middles of the cells,
+ * and a camera's rays one cell apart: a beam that is a sample wide along every axis is met by just
+ * one of its rays, wherever it lies. No sample contains them. */
 enum { BAKE_SEARCH = -1 };
 
 /* The offset of a box's rays in a pass, in cells, each in (-1/2, 1/2). */

@@ -6,7 +6,7 @@
  *    (bake_grow.h). What stays dark gets no more.
  * 4. The standard deviation of each tile, by the scatter of its pairs of passes.
  * 5. The passes of each tile: as few as leave no more noise than matters (bake_need.h), within the
- *    budget (bake_allocate.c). The same of all, where the search met the light too seldom to tell.
+ *    budget (bake_allocate.c). The same of all, where the search found no beams.
  * 6. The last round renders what is still missing of them (bake_plan.h).
  *
  * A shard sums all rounds but the last, since it plans by them; of that it renders its own part
@@ -71,12 +71,11 @@ static enum result run_rest(const struct bake_work *work, struct bake_rounds *ro
   return result;
 }
 
-/* Step 5. Of a source that few rays meet, a search shows the places where it was lucky: what more
- * rays would find elsewhere is missing for good. */
+/* Step 5. */
 static enum result find_passes(const struct bake_work *work, const struct bake_rounds *rounds,
                                struct plan *plan, struct error *error) {
   const struct bake_effort *effort = &work->effort;
-  struct bake_limits limits = {.rays = effort->rays, .rays_max = effort->rays_max};
+  struct bake_limits limits = {.rays = effort->rays - 1, .rays_max = effort->rays_max};
   enum result result = bake_sum_deviation(rounds->sum, plan->deviation, error);
   if (result == RESULT_OK) result = bake_need(work, rounds->sum, &limits.variance, error);
   if (result == RESULT_OK)
@@ -90,13 +89,13 @@ static enum result run_adaptive(const struct bake_work *work, const char *label,
                                 struct error *error) {
   struct plan plan = {0};
   enum result result = make_plan(&rounds->tiles, &plan, error);
-  bool met_light = bake_sum_met_light(rounds->sum);
-  while (result == RESULT_OK && met_light &&
+  bool beams = bake_grow_has_beams(&rounds->tiles, rounds->sum);
+  while (result == RESULT_OK && beams &&
          bake_grow(&rounds->tiles, rounds->sum, FIRST, plan.wanted) > 0)
     result = run_rest(work, rounds, &plan, rounds->sum, "pilot", report, error);
-  for (size_t n = 0; n < plan.tiles && result == RESULT_OK && !met_light; ++n)
+  for (size_t n = 0; n < plan.tiles && result == RESULT_OK && !beams; ++n)
     plan.wanted[n] = work->effort.rays;
-  if (result == RESULT_OK && met_light) result = find_passes(work, rounds, &plan, error);
+  if (result == RESULT_OK && beams) result = find_passes(work, rounds, &plan, error);
   if (result == RESULT_OK)
     result = run_rest(work, rounds, &plan, work->effort.shards > 1 ? NULL : rounds->sum, label,
                       report, error);

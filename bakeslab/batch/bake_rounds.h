@@ -1,5 +1,5 @@
-/* bake_rounds.h - the rays of a bake, summed: one everywhere, more around what they find, and the rest
- * of the passes where those were noisy. */
+/* bake_rounds.h - the rays of a bake, summed: one everywhere, more around what they find, and the
+ * rest of the passes where those were noisy. */
 #ifndef BAKE_ROUNDS_H
 #define BAKE_ROUNDS_H
 

@@ -153,17 +153,10 @@ bool bake_sum_is_lit(const struct bake_sum *sum, int page, size_t sample) {
   return cell->yy > 0 || cell->found != 0;
 }
 
-bool bake_sum_met_light(const struct bake_sum *sum) {
-  double all = 0, squares = 0;
-  for (int page = 0; page < sum->tiles->pages; ++page)
-    for (size_t n = 0; n < slab_sample_count(&sum->tiles->slabs[page]); ++n) {
-      int at[SLAB_AXES];
-      slab_locate(&sum->tiles->slabs[page], n, at);
-      double light = cell_weight(&sum->tiles->slabs[page], at) * (double)sum->pages[page][n].found;
-      all += light;
-      squares += light * light;
-    }
-  return all * all >= squares * fmin(1000, 4 * bake_tile_count(sum->tiles));
+double bake_sum_found(const struct bake_sum *sum, int page, size_t sample) {
+  int at[SLAB_AXES];
+  slab_locate(&sum->tiles->slabs[page], sample, at);
+  return fabs((double)sum->pages[page][sample].found) * cell_weight(&sum->tiles->slabs[page], at);
 }
 
 /* ---- The error of the flux ---- */

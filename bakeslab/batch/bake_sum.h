@@ -21,17 +21,15 @@ void bake_sum_free(struct bake_sum *sum);
 void bake_sum_add(struct bake_sum *sum, const struct bake_round *round,
                   const struct bake_batch *batch, const float *rgb);
 
-/* Standard deviation of what a pair adds to the flux by a sample (luminance, RMS over the tile's), by
- * tile. */
+/* Standard deviation of what a pair adds to the flux by a sample (luminance, RMS over the tile's),
+ * by tile. */
 enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, struct error *error);
 
 /* Whether a ray of a sample, in the raster's order, met light, that of the search too. */
 bool bake_sum_is_lit(const struct bake_sum *sum, int page, size_t sample);
 
-/* Whether so many rays of the search met light that they tell where it is: a thousand, or four a
- * tile. Of so many alike the flux would be known as well (the effective sample size of L. Kish,
- * Survey Sampling, 1965). */
-bool bake_sum_met_light(const struct bake_sum *sum);
+/* The luminous flux of a sample by its ray of the search. */
+double bake_sum_found(const struct bake_sum *sum, int page, size_t sample);
 
 struct bake_noise {
   bool known;    /* `sample` is: it needs two pairs */

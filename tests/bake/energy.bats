@@ -41,7 +41,7 @@ covers() {
     Canned_Slab(<1, 1, -4>, 8*x, 6*y, -z, W_, 0) Canned_Slab(<1, 1, 4>, 8*x, 6*y, z, W_, 0)
     Canned_Bulb(0, 0.3, 10)'
   local rays
-  for rays in 4 16; do # with 16, where the pilot of 4 was lucky is not all that is looked at
+  for rays in 4 16; do # with 16, where the search was lucky is not all that is looked at
     bake small.pov -q -o x.exr --uv 6 --st 24 --rays $rays
     covers x.exr 1
     awk -v k="$known" -v r=$rays 'BEGIN { exit !(k > 10 && k < (r > 4 ? 40 : 90)) }'

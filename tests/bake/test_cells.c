@@ -221,7 +221,7 @@ TEST(test_no_noise) {
   assert_true(bakes_provenance(&slab, "noise", "sample") < 1e-7);
   assert_true(bakes_provenance(&slab, "noise", "flux") < 1e-7);
   assert_true(fabs((double)slab.rgb[0] / 0.3 - 1) < 0x1p-11);
-  assert_true(bakes_provenance(&slab, "rays", NULL) < 5); /* the pilot was enough */
+  assert_true(bakes_provenance(&slab, "rays", NULL) == 5); /* the search, and two pairs */
   slab_free(&slab);
 }
 
@@ -238,7 +238,7 @@ TEST(test_counted) {
       for (int n = 0; n < 2; ++n) memcpy(slabs[n].samples, samples[k], sizeof samples[k]);
       bake_plan_count(slabs, 2, 6, (enum bake_form)form, &batches, &frames);
       assert_int_equal(bake_tiles_init(&tiles, slabs, 2, form == BAKE_TRANSPOSED, NULL), RESULT_OK);
-      assert_int_equal(bake_plan_pilot(&tiles, 6, (enum bake_form)form, &round, NULL), RESULT_OK);
+      assert_int_equal(bake_plan_whole(&tiles, 0, 6, (enum bake_form)form, &round, NULL), RESULT_OK);
       /* The last one may be short, or a few units more. */
       assert_true(fabs(batches - (double)round.batch_count) <= 1 + 0.1 * batches);
       assert_true(frames == (form == BAKE_MESH ? 0 : (double)round.unit_count));
