@@ -5,7 +5,7 @@
  * 2. Those of the lamp are the pages', weighted by flux: noise in quadrature, blur added.
  * 3. The limit of noise is that asked for, or else the greater of a third of what the resolution
  *    does, which adds a twentieth to the error, and of one that nobody sees; then the flux, which
- *    resolution leaves alone, is to be known to that. */
+ *    resolution leaves alone, has a limit of its own. */
 #include "batch/bake_need.h"
 
 #include <math.h>
@@ -14,7 +14,8 @@
 #include "slab/plane.h"
 #include "slab/slab_accuracy.h"
 
-static const double beside_blur = 1.0 / 3, unseen = 0.003;
+/* The flux is known about twice as well as is told (bake_sum.h). */
+static const double beside_blur = 1.0 / 3, unseen = 0.0025, unseen_flux = 0.004;
 
 double bake_need_distance(const struct bake_options *options, const struct slab *page) {
   return options->for_distance > 0 ? options->for_distance : 4 * plane_width(page);
@@ -46,7 +47,7 @@ static double find_part(const struct changes *changes, double flux_noise, double
   if (noise == 0) return 1;
   if (asked > 0) return pow(asked / noise, 2);
   double limit = fmax(beside_blur * changes->blur / changes->flux, unseen);
-  return fmin(pow(limit / noise, 2), flux_noise > 0 ? pow(unseen / flux_noise, 2) : 1);
+  return fmin(pow(limit / noise, 2), flux_noise > 0 ? pow(unseen_flux / flux_noise, 2) : 1);
 }
 
 enum result bake_need(const struct bake_work *work, const struct bake_sum *sum, double *part,
