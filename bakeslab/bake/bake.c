@@ -203,6 +203,19 @@ static void warn_of_noise(const struct bake_noise *noise, struct warnings *warni
                100 * most_flux_noise);
 }
 
+/* Small bakes chose the resolution; the slab itself may show that it is not enough, or none was. */
+static void warn_of_resolution(const struct bake_options *options, const struct bake_report *report,
+                               const struct slab *page, struct warnings *warnings) {
+  static const double certainty = 1.5; /* of both estimates */
+  double excess = report->error / options->tolerance;
+  if (options->tolerance == 0 || !(excess > certainty)) return;
+  warnings_add(warnings,
+               "the slab's own error is about %.2g, not the tolerance of %g: with %d positions and "
+               "%d directions a side that is its floor; --uv %.0f --st %.0f may reach the tolerance",
+               report->error, options->tolerance, page->samples[SLAB_U], page->samples[SLAB_S],
+               ceil(page->samples[SLAB_U] * sqrt(excess)), ceil(page->samples[SLAB_S] * excess));
+}
+
 static enum result assess(const struct bake_work *work, struct bake_state *state,
                           struct bake_report *report, struct error *error) {
   const struct slab *pages = state->lamp.slabs;
@@ -220,6 +233,7 @@ static enum result assess(const struct bake_work *work, struct bake_state *state
                                       &accuracy, error);
     if (!(accuracy.all <= report->error)) report->error = accuracy.all;
   }
+  warn_of_resolution(work->options, report, &pages[0], &report->warnings);
   if (result == RESULT_OK)
     result = bake_energy(work, &state->origin.noise, &state->origin.energy, report, error);
   return result;

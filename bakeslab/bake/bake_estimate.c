@@ -77,7 +77,7 @@ static enum result estimate_time(const struct bake_work *work, const double cpu[
   const struct bake_options *options = work->options;
   double per_ray = fmax(0, (cpu[1] - cpu[0]) / (rays[1] - rays[0]));
   double first = fmax(0, cpu[0] - per_ray * rays[0]), cores = (double)sysconf(_SC_NPROCESSORS_ONLN);
-  int round[2] = {bake_rounds_first(&work->effort), 0}, balances;
+  int round[2] = {bake_rounds_first(work), 0}, balances;
   round[1] = work->effort.rays - round[0];
   estimate->memory = program_bytes + SUM_BYTES * estimate->samples;
   for (int n = 0; n < 2 && round[n] > 0; ++n) {
@@ -133,17 +133,21 @@ static double rounded(double x) {
 void bake_estimate_say(const struct bake_work *work, const struct bake_estimate *estimate,
                        const char *why, char line[BAKE_ESTIMATE_LINE]) {
   const int *n = work->slabs[0].samples;
+  /* How soon the noise is little enough the bake itself shows. */
+  bool open = work->effort.adaptive && !isnan(work->options->noise);
+  const char *about = open ? "at most " : "some ", *bound = open ? "at most " : "";
   char time[64];
   if (estimate->seconds < 120)
-    snprintf(time, sizeof time, "some %.6g s", rounded(estimate->seconds));
+    snprintf(time, sizeof time, "%.6g s", rounded(estimate->seconds));
   else if (estimate->seconds < 7200)
-    snprintf(time, sizeof time, "some %.6g min", rounded(estimate->seconds / 60));
+    snprintf(time, sizeof time, "%.6g min", rounded(estimate->seconds / 60));
   else
-    snprintf(time, sizeof time, "some %.6g h", rounded(estimate->seconds / 3600));
+    snprintf(time, sizeof time, "%.6g h", rounded(estimate->seconds / 3600));
   snprintf(line, BAKE_ESTIMATE_LINE,
-           "%d page%s of %d x %d x %d x %d samples (%s); %.3g rays; time %s with %d job%s, memory "
-           "%.6g MB, file %.6g MB",
+           "%d page%s of %d x %d x %d x %d samples (%s); %s%.3g rays; time %s%s with %d job%s, "
+           "memory %.6g MB, file %.6g MB",
            work->lamp->slab_count, work->lamp->slab_count == 1 ? "" : "s", n[0], n[1], n[2], n[3],
-           why, estimate->rays, time, work->options->jobs, work->options->jobs == 1 ? "" : "s",
-           rounded(estimate->memory / 1e6), rounded(estimate->bytes / 1e6));
+           why, bound, estimate->rays, about, time, work->options->jobs,
+           work->options->jobs == 1 ? "" : "s", rounded(estimate->memory / 1e6),
+           rounded(estimate->bytes / 1e6));
 }

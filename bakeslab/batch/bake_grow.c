@@ -24,7 +24,7 @@ bool bake_grow_has_beams(const struct bake_tiles *tiles, const struct bake_sum *
   double all = 0, together = 0;
   for (int page = 0; page < tiles->pages; ++page)
     for (size_t n = 0; n < slab_sample_count(&tiles->slabs[page]); ++n) {
-      double light = bake_sum_found(sum, page, n);
+      double light = bake_sum_light(sum, page, n);
       int at[SLAB_AXES], beside[SLAB_AXES];
       size_t other;
       bool alone = true;

@@ -4,8 +4,8 @@
 
 #include "batch/bake_sum.h"
 
-/* Whether most of the light that the search met has some beside it. Where it has not, the search
- * met a source smaller than a sample by chance, and missed as much elsewhere. */
+/* Whether most of the light that the first rays met has some beside it. Where it has not, the
+ * search met a source smaller than a sample by chance, and missed as much elsewhere. */
 bool bake_grow_has_beams(const struct bake_tiles *tiles, const struct bake_sum *sum);
 
 /* Raises passes[], by tile, to at least `to` where a sample met light, or one that did is within a

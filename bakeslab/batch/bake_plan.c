@@ -12,9 +12,8 @@
  * camera's face by a linear search through the meshes. */
 enum { BATCH_COST = 1 << 21, CAMERA_COST = 256, BATCH_EVEN = 4, BATCH_FRAMES = 512 };
 
-/* The sides of a tile, and of the largest mesh of directions, whose parsing grows faster
- * than its faces do. */
-enum { TILE = 8, MESH = 64 };
+/* The side of the largest mesh of directions, whose parsing grows faster than its faces do. */
+enum { MESH = 64 };
 
 /* The longest side of a box. */
 static int longest_side(enum bake_form form) {
@@ -36,7 +35,7 @@ static int fixed_axis(const struct bake_tiles *tiles, int k) {
 static int tile_size(const struct bake_tiles *tiles, int page, int axis) {
   int n = tiles->slabs[page].samples[axis];
   if (axis == fixed_axis(tiles, 0) || axis == fixed_axis(tiles, 1)) return 1;
-  return n < 2 * TILE ? n : TILE;
+  return n < 2 * tiles->side ? n : tiles->side;
 }
 
 void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES]) {
@@ -47,8 +46,9 @@ void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES
 }
 
 enum result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages,
-                            bool transposed, struct error *error) {
-  *tiles = (struct bake_tiles){.pages = pages, .slabs = slabs, .transposed = transposed};
+                            bool transposed, int side, struct error *error) {
+  *tiles =
+      (struct bake_tiles){.pages = pages, .slabs = slabs, .transposed = transposed, .side = side};
   tiles->first_tile = calloc((size_t)pages + 1, sizeof *tiles->first_tile);
   if (!tiles->first_tile) return result_no_memory(error);
   for (int page = 0; page < pages; ++page) {

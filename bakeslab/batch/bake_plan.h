@@ -16,11 +16,12 @@ struct bake_tiles {
   int pages;
   const struct slab *slabs; /* not owned */
   bool transposed;          /* a camera covers u and v rather than s and t */
+  int side;                 /* of a tile, in samples; of shorter axes the whole */
   int *first_tile;          /* [pages + 1] */
 };
 
 enum result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages,
-                            bool transposed, struct error *error);
+                            bool transposed, int side, struct error *error);
 void bake_tiles_free(struct bake_tiles *tiles);
 int bake_tile_count(const struct bake_tiles *tiles);
 /* Tiles along each axis of a page. */

@@ -2,6 +2,8 @@
  *
  * 1. Where all samples get the same number of rays: one round, and that is all.
  * 2. Else a pass that looks for light, and meets every beam that is a sample wide (bake_rays.h).
+ *    With photons or interreflection, which cost as much in each POV-Ray process as many rays do,
+ *    FIRST passes of every tile instead, and step 3 is left out.
  * 3. Where it found some, and beside it, tiles get FIRST passes; so on until nothing new shows
  *    (bake_grow.h). What stays dark gets no more.
  * 4. The standard deviation of each tile, by the scatter of its pairs of passes.
@@ -21,6 +23,9 @@
 
 /* With fewer passes, the scatter of their pairs says nothing. */
 enum { FIRST = 4 };
+/* Sides of tiles: what a search finds is narrow, but a camera costs as much as some hundred rays.
+ */
+enum { BEAM_TILE = 8, TILE = 16 };
 
 struct bake_effort bake_effort_of(const struct bake_options *options) {
   return (struct bake_effort){.rays = options->rays,
@@ -30,8 +35,14 @@ struct bake_effort bake_effort_of(const struct bake_options *options) {
                               .shards = options->shards};
 }
 
-int bake_rounds_first(const struct bake_effort *effort) {
-  return effort->adaptive ? 1 : effort->rays;
+/* Whether a bake begins with a search. */
+static bool searches(const struct bake_work *work) {
+  const int *setting = work->look.effects->setting;
+  return work->effort.adaptive && !setting[INTERREFLECTION] && !setting[CAUSTICS];
+}
+
+int bake_rounds_first(const struct bake_work *work) {
+  return searches(work) ? 1 : work->effort.adaptive ? FIRST : work->effort.rays;
 }
 
 /* What rounds are planned by. */
@@ -41,14 +52,14 @@ struct plan {
   size_t tiles;
 };
 
-static enum result make_plan(const struct bake_tiles *tiles, struct plan *plan,
+static enum result make_plan(const struct bake_tiles *tiles, int done, struct plan *plan,
                              struct error *error) {
   size_t count = plan->tiles = (size_t)bake_tile_count(tiles);
   plan->done = malloc(count * sizeof *plan->done);
   plan->wanted = malloc(count * sizeof *plan->wanted);
   plan->deviation = malloc(count * sizeof *plan->deviation);
   if (!plan->done || !plan->wanted || !plan->deviation) return result_no_memory(error);
-  for (size_t n = 0; n < count; ++n) plan->done[n] = plan->wanted[n] = 0;
+  for (size_t n = 0; n < count; ++n) plan->done[n] = plan->wanted[n] = done;
   return RESULT_OK;
 }
 
@@ -75,7 +86,7 @@ static enum result run_rest(const struct bake_work *work, struct bake_rounds *ro
 static enum result find_passes(const struct bake_work *work, const struct bake_rounds *rounds,
                                struct plan *plan, struct error *error) {
   const struct bake_effort *effort = &work->effort;
-  struct bake_limits limits = {.rays = effort->rays - 1, .rays_max = effort->rays_max};
+  struct bake_limits limits = {.rays = effort->rays - searches(work), .rays_max = effort->rays_max};
   enum result result = bake_sum_deviation(rounds->sum, plan->deviation, error);
   if (result == RESULT_OK) result = bake_need(work, rounds->sum, &limits.variance, error);
   if (result == RESULT_OK)
@@ -88,7 +99,7 @@ static enum result run_adaptive(const struct bake_work *work, const char *label,
                                 struct bake_rounds *rounds, struct bake_report *report,
                                 struct error *error) {
   struct plan plan = {0};
-  enum result result = make_plan(&rounds->tiles, &plan, error);
+  enum result result = make_plan(&rounds->tiles, searches(work) ? 0 : FIRST, &plan, error);
   bool beams = bake_grow_has_beams(&rounds->tiles, rounds->sum);
   while (result == RESULT_OK && beams &&
          bake_grow(&rounds->tiles, rounds->sum, FIRST, plan.wanted) > 0)
@@ -108,18 +119,22 @@ enum result bake_rounds_run(const struct bake_work *work, const char *label,
                             struct error *error) {
   const struct bake_effort *effort = &work->effort;
   bool adaptive = effort->adaptive, shard = effort->shards > 1;
-  int from = adaptive ? BAKE_SEARCH : 0, most = adaptive ? effort->rays_max : effort->rays;
+  int from = searches(work) ? BAKE_SEARCH : 0, most = adaptive ? effort->rays_max : effort->rays;
   struct bake_round whole = {0};
   *rounds = (struct bake_rounds){0};
-  enum result result = bake_tiles_init(&rounds->tiles, work->slabs, work->lamp->slab_count,
-                                       work->look.form == BAKE_TRANSPOSED, error);
+  enum result result =
+      bake_tiles_init(&rounds->tiles, work->slabs, work->lamp->slab_count,
+                      work->look.form == BAKE_TRANSPOSED, searches(work) ? BEAM_TILE : TILE, error);
   if (result == RESULT_OK) result = bake_sum_new(&rounds->tiles, most, &rounds->sum, error);
   if (result == RESULT_OK)
-    result = bake_plan_whole(&rounds->tiles, from, from + bake_rounds_first(effort),
-                             work->look.form, &whole, error);
+    result = bake_plan_whole(&rounds->tiles, from, from + bake_rounds_first(work), work->look.form,
+                             &whole, error);
   if (result == RESULT_OK)
     result = bake_run(work, &whole, adaptive || !shard ? rounds->sum : NULL,
-                      adaptive ? "search" : label, report, error);
+                      from == BAKE_SEARCH ? "search"
+                      : adaptive          ? "pilot"
+                                          : label,
+                      report, error);
   bake_round_free(&whole);
   if (result == RESULT_OK && adaptive) result = run_adaptive(work, label, rounds, report, error);
   return result;

@@ -14,7 +14,7 @@ struct bake_rounds {
 struct bake_effort bake_effort_of(const struct bake_options *options);
 
 /* Passes of the first round; all of them, where there is no other. */
-int bake_rounds_first(const struct bake_effort *effort);
+int bake_rounds_first(const struct bake_work *work);
 
 /* Renders and sums work->slabs, showing progress under the label. Free the rounds with
  * bake_rounds_free in any case. */

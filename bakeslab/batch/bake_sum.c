@@ -153,10 +153,11 @@ bool bake_sum_is_lit(const struct bake_sum *sum, int page, size_t sample) {
   return cell->yy > 0 || cell->found != 0;
 }
 
-double bake_sum_found(const struct bake_sum *sum, int page, size_t sample) {
+double bake_sum_light(const struct bake_sum *sum, int page, size_t sample) {
+  const struct cell *cell = &sum->pages[page][sample];
   int at[SLAB_AXES];
   slab_locate(&sum->tiles->slabs[page], sample, at);
-  return fabs((double)sum->pages[page][sample].found) * cell_weight(&sum->tiles->slabs[page], at);
+  return fabs((double)cell->found + cell->y) * cell_weight(&sum->tiles->slabs[page], at);
 }
 
 /* ---- The error of the flux ---- */

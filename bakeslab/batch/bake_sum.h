@@ -28,8 +28,8 @@ enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, st
 /* Whether a ray of a sample, in the raster's order, met light, that of the search too. */
 bool bake_sum_is_lit(const struct bake_sum *sum, int page, size_t sample);
 
-/* The luminous flux of a sample by its ray of the search. */
-double bake_sum_found(const struct bake_sum *sum, int page, size_t sample);
+/* The luminous flux of a sample by its rays so far, up to a factor. */
+double bake_sum_light(const struct bake_sum *sum, int page, size_t sample);
 
 struct bake_noise {
   bool known;    /* `sample` is: it needs two pairs */

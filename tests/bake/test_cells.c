@@ -237,8 +237,10 @@ TEST(test_counted) {
       double batches, frames;
       for (int n = 0; n < 2; ++n) memcpy(slabs[n].samples, samples[k], sizeof samples[k]);
       bake_plan_count(slabs, 2, 6, (enum bake_form)form, &batches, &frames);
-      assert_int_equal(bake_tiles_init(&tiles, slabs, 2, form == BAKE_TRANSPOSED, NULL), RESULT_OK);
-      assert_int_equal(bake_plan_whole(&tiles, 0, 6, (enum bake_form)form, &round, NULL), RESULT_OK);
+      assert_int_equal(bake_tiles_init(&tiles, slabs, 2, form == BAKE_TRANSPOSED, 8, NULL),
+                       RESULT_OK);
+      assert_int_equal(bake_plan_whole(&tiles, 0, 6, (enum bake_form)form, &round, NULL),
+                       RESULT_OK);
       /* The last one may be short, or a few units more. */
       assert_true(fabs(batches - (double)round.batch_count) <= 1 + 0.1 * batches);
       assert_true(frames == (form == BAKE_MESH ? 0 : (double)round.unit_count));

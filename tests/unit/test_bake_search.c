@@ -71,7 +71,7 @@ static int search_start(struct search *search, const struct beam *beams, int cou
                                .st_window = {-1, 1, -1, 1},
                                .st_distance = INFINITY};
   memcpy(search->slab.samples, samples, sizeof samples);
-  assert_int_equal(bake_tiles_init(&search->tiles, &search->slab, 1, false, NULL), RESULT_OK);
+  assert_int_equal(bake_tiles_init(&search->tiles, &search->slab, 1, false, 8, NULL), RESULT_OK);
   assert_int_equal(bake_sum_new(&search->tiles, 16, &search->sum, NULL), RESULT_OK);
   search->passes = calloc((size_t)bake_tile_count(&search->tiles), sizeof *search->passes);
   assert_int_equal(
