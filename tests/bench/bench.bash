@@ -49,7 +49,7 @@ bake() {
   shift
   rm -rf "$name.exr" "$name.exr.partial"
   spend "$name" "$BAKESLAB" bake "$root/lamps/parabolic.pov" -o "$name.exr" --uv 16x16 --st 64x64 \
-    --effects none --quiet "$@"
+    --effects none --window declared --quiet "$@"
 }
 
 # A number of "noise" of a slab's provenance, in %; "-" where it is not known.
