@@ -17,6 +17,7 @@
  *      sum over all views at once (cut_views.h), as near the aperture, where this is exact enough.
  *      Otherwise cut_sum returns false, and the micro lights do it: for glossy receivers, where
  *      the tangent plane cuts the aperture, and at the aperture.
+ * Where the root alone is exact enough, cut_roots.c does the same for four receivers at once.
  * All of these keep the tolerance, so nothing is seen where one hands over to another. Giving up
  * costs a few percent of the micro lights. */
 #include "cut/cut.h"
@@ -25,15 +26,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cut/cut_allowed.h"
 #include "cut/cut_seen.h"
 #include "cut/cut_views.h"
 #include "microlight/rule.h"
 
 enum { NODES = 1024, ROUNDS = 4 };
-
-/* Errors of nodes that differ from their views have either sign. Their sum is taken as this many
- * times the root of the sum of their squares, or as the sum, where that is less. */
-static const double scatter = 1.6;
 
 /* Costs in nanoseconds, of which only the ratios matter: of a node, of an st sample of a node, of
  * a micro light summed by the rule pi, of a strip of them; by Gauss rules instead of pi. */
@@ -43,22 +41,23 @@ static const double node_cost = 70, sample_cost = 3, light_cost = 8, strip_cost 
  * its estimated cost is more than `hopeless`. */
 static const double worth = 0.7, hopeless = 12;
 
-/* Light below this share of the most that the page sends to the receiver's height may err as if
- * it were that share. */
-static const double least_share = 1e-4;
+/* Where the window cuts nodes: of what is aimed at. */
+static const double clipped_margin = 0.4;
 
-/* Of the tolerance: what is aimed at, since all is estimated; and where the window cuts nodes. */
-static const double margin = 0.7, clipped_margin = 0.4;
-
-/* Nodes are summed in single precision. */
-static const double rounding = 5e-7;
+struct ranked {
+  double error;
+  int node; /* its place in cut_work.node */
+};
 
 struct cut_work {
-  struct cut_seen nodes;
-  struct cut_views *views;     /* owned */
-  struct cut_node heap[NODES]; /* of the cut; the largest error first */
+  struct cut_seen seen;
+  struct cut_views *views;         /* owned */
+  struct cut_node node[NODES + 4]; /* of the cut, and free places */
+  struct ranked heap[NODES + 4]; /* of the cut, the largest error first; beyond `count`, of the free
+                                  places */
   int count;
   double light, curvature, spread, square, cost; /* of the cut: sums of its nodes' */
+  double error;                                  /* of these sums */
   double tolerance;
   double budget;      /* cost of what the cut replaces; 0: not known yet */
   int view_nodes;     /* a side, in a sum over all views; 0: no number is exact enough */
@@ -68,6 +67,7 @@ struct cut_work {
 
 struct cut_work *cut_work_make(void) {
   struct cut_work *made = calloc(1, sizeof *made);
+  for (int k = 0; made && k < NODES + 4; ++k) made->heap[k].node = k;
   if (!made || (made->views = cut_views_make())) return made;
   free(made);
   return NULL;
@@ -75,7 +75,7 @@ struct cut_work *cut_work_make(void) {
 
 void cut_work_free(struct cut_work *work) {
   if (!work) return;
-  cut_seen_free(&work->nodes);
+  cut_seen_free(&work->seen);
   cut_views_free(work->views);
   free(work);
 }
@@ -83,15 +83,15 @@ void cut_work_free(struct cut_work *work) {
 /* The cost of all views at once, and with how many nodes; or, where these are not exact enough, of
  * the micro lights, summed by pi or else by Gauss rules. */
 static double find_budget(struct cut_work *work) {
-  const struct seen_page *seen = work->nodes.seen;
+  const struct seen_page *seen = work->seen.seen;
   work->view_nodes = cut_views_nodes(seen, work->tolerance, &work->views_error);
   if (work->view_nodes > 0) return cut_views_price(seen, work->view_nodes);
   double strips[2], widest = 0;
   for (int axis = 0; axis < 2; ++axis) {
     const struct light_axis *along = &seen->page->axes[axis];
-    const double near = along->near_step * work->nodes.per_height;
+    const double near = along->near_step * work->seen.per_height;
     const double far = along->far_step / fabs(along->kappa * seen->height - 1);
-    const double cells = 2 * along->half / fabs(along->far_step) * fabs(work->nodes.w);
+    const double cells = 2 * along->half / fabs(along->far_step) * fabs(work->seen.w);
     const double share = cells > along->far_count ? along->far_count / cells : 1;
     strips[axis] = 1 + cells * share + share * along->near_count;
     widest = fmax(widest, fmin(near, far));
@@ -108,54 +108,64 @@ static double error_of(const struct cut_node *node) {
 }
 
 static double node_price(const struct cut_work *work, int level) {
-  return node_cost + sample_cost * work->nodes.level[level].samples;
+  return node_cost + sample_cost * work->seen.level[level].samples;
 }
 
-static void count_node(struct cut_work *work, const struct cut_node *node, double sign) {
-  work->light += sign * node->light;
-  work->curvature += sign * node->curvature;
-  work->spread += sign * node->spread;
-  work->square += sign * node->spread * node->spread;
-  work->cost += sign * node_price(work, node->level);
-}
-
-static void push(struct cut_work *work, const struct cut_node *node) {
-  struct cut_node *heap = work->heap;
-  const double error = error_of(node);
+/* The node is in the first free place. */
+static void push(struct cut_work *work, double price) {
+  struct ranked *heap = work->heap;
   int k = work->count++;
-  for (; k > 0 && error_of(&heap[(k - 1) / 2]) < error; k = (k - 1) / 2)
-    heap[k] = heap[(k - 1) / 2];
-  heap[k] = *node;
-  count_node(work, node, 1);
+  const int place = heap[k].node;
+  const struct cut_node *node = &work->node[place];
+  const double error = error_of(node);
+  for (; k > 0 && heap[(k - 1) / 2].error < error; k = (k - 1) / 2) heap[k] = heap[(k - 1) / 2];
+  heap[k] = (struct ranked){error, place};
+  work->light += node->light;
+  work->curvature += node->curvature;
+  work->spread += node->spread;
+  work->square += node->spread * node->spread;
+  work->cost += price;
 }
 
-static struct cut_node pop(struct cut_work *work) {
-  struct cut_node *heap = work->heap, top = heap[0], last = heap[--work->count];
+static void pop(struct cut_work *work) {
+  struct ranked *heap = work->heap, top = heap[0], last = heap[--work->count];
+  const struct cut_node *node = &work->node[top.node];
   int k = 0;
   for (int child = 1; child < work->count; child = 2 * k + 1) {
-    if (child + 1 < work->count && error_of(&heap[child + 1]) > error_of(&heap[child])) ++child;
-    if (!(error_of(&heap[child]) > error_of(&last))) break;
+    if (child + 1 < work->count && heap[child + 1].error > heap[child].error) ++child;
+    if (!(heap[child].error > last.error)) break;
     heap[k] = heap[child];
     k = child;
   }
   heap[k] = last;
-  count_node(work, &top, -1);
-  return top;
+  heap[work->count].node = top.node;
+  work->light -= node->light;
+  work->curvature -= node->curvature;
+  work->spread -= node->spread;
+  work->square -= node->spread * node->spread;
+  work->cost -= node_price(work, node->level);
+}
+
+static void add_four(struct cut_work *work, int level, const int (*at)[2], int count) {
+  const double price = node_price(work, level);
+  struct cut_node *free[4];
+  for (int k = 0; k < 4; ++k) free[k] = &work->node[work->heap[work->count + k].node];
+  const int seen = cut_seen_estimate(&work->seen, level, at, count, free);
+  for (int k = 0; k < seen; ++k) push(work, price);
+  work->visited += (uint64_t)seen;
 }
 
 static void add_block(struct cut_work *work, int level, const int from[2], const int to[2]) {
-  struct cut_node node;
+  int at[4][2], count = 0;
   for (int q = from[1]; q < to[1]; ++q)
     for (int p = from[0]; p < to[0]; ++p) {
-      if (!cut_seen_estimate(&work->nodes, level, (int[2]){p, q}, &node)) continue;
-      push(work, &node);
-      ++work->visited;
+      at[count][0] = p;
+      at[count][1] = q;
+      if (++count < 4) continue;
+      add_four(work, level, (const int(*)[2])at, count);
+      count = 0;
     }
-}
-
-static double error_sum(const struct cut_work *work) {
-  double scattered = scatter * sqrt(work->square > 0 ? work->square : 0);
-  return work->curvature + (scattered < work->spread ? scattered : work->spread);
+  if (count > 0) add_four(work, level, (const int(*)[2])at, count);
 }
 
 /* Is a cut likely to cost too much? Twice the nodes halve the error, at best. `weight`: the square
@@ -172,31 +182,34 @@ static bool estimate_block(const struct cut_work *work, int level, const int fro
                            const int to[2], double tolerance) {
   const double count = (to[0] - from[0]) * (to[1] - from[1]);
   double error = 0, light = 0;
-  for (int k = 0; k < 4; ++k) {
-    struct cut_node node;
-    int at[2];
+  struct cut_node node[4], *const nodes[4] = {&node[0], &node[1], &node[2], &node[3]};
+  int at[4][2];
+  for (int k = 0; k < 4; ++k)
     for (int axis = 0; axis < 2; ++axis)
-      at[axis] = from[axis] + (to[axis] - from[axis]) * (k >> axis & 1 ? 3 : 1) / 4;
-    if (!cut_seen_estimate(&work->nodes, level, at, &node)) continue;
-    error += error_of(&node);
-    light += fabs(node.light);
+      at[k][axis] = from[axis] + (to[axis] - from[axis]) * (k >> axis & 1 ? 3 : 1) / 4;
+  const int seen = cut_seen_estimate(&work->seen, level, (const int(*)[2])at, 4, nodes);
+  for (int k = 0; k < seen; ++k) {
+    error += error_of(&node[k]);
+    light += fabs(node[k].light);
   }
   return !is_hopeless(work, 3 * count, error / sqrt(count), tolerance * light);
 }
 
 /* The first cut: the first level whose nodes are narrow enough. False: too expensive. */
 static bool start(struct cut_work *work, double tolerance) {
-  const struct cut_tree *tree = work->nodes.tree;
+  const struct cut_tree *tree = work->seen.tree;
   int number = 0, from[2], to[2];
-  for (cut_seen_prepare(&work->nodes, 0); work->nodes.level[number].wide;) {
+  for (cut_seen_prepare(&work->seen, 0); work->seen.level[number].width.wide;) {
     if (++number == tree->levels) return false;
-    cut_seen_prepare(&work->nodes, number);
+    cut_seen_prepare(&work->seen, number);
   }
   for (int axis = 0; axis < 2; ++axis) {
-    const struct cut_spot *spots = work->nodes.level[number].spots[axis];
-    int count = tree->axes[axis].count[number];
-    for (from[axis] = 0; from[axis] < count && !spots[from[axis]].seen;) ++from[axis];
-    for (to[axis] = from[axis]; to[axis] < count && spots[to[axis]].seen;) ++to[axis];
+    const int most = tree->axes[axis].count[number];
+    int k = 0;
+    while (k < most && !cut_seen_any(&work->seen, number, axis, k)) ++k;
+    from[axis] = k;
+    while (k < most && cut_seen_any(&work->seen, number, axis, k)) ++k;
+    to[axis] = k;
   }
   int count = (to[0] - from[0]) * (to[1] - from[1]);
   if (count > NODES) return false;
@@ -212,27 +225,28 @@ static bool start(struct cut_work *work, double tolerance) {
 /* Refines until the error is allowed. `more` is how much more light there is than the nodes'
  * estimates say. False: too expensive. */
 static bool refine(struct cut_work *work, double tolerance, double least, double more) {
-  const struct cut_tree *tree = work->nodes.tree;
-  while (work->count > 0) {
-    const double light = work->light + more, error = error_sum(work);
+  const struct cut_tree *tree = work->seen.tree;
+  for (;;) {
+    const double light = work->light + more,
+                 error = work->error = cut_allowed_sum(work->curvature, work->spread, work->square);
     const double allowed = tolerance * (light > least ? light : least);
-    if (error <= allowed) break;
+    if (error <= allowed || work->count == 0) return true;
     if (work->budget == 0) work->budget = find_budget(work);
-    const struct cut_node top = work->heap[0];
-    if (top.level == tree->levels - 1 || work->count + 4 > NODES) return false;
+    const struct cut_node *top = &work->node[work->heap[0].node];
+    const int level = top->level;
+    if (level == tree->levels - 1 || work->count + 4 > NODES) return false;
     const double sharing = work->spread * work->spread / work->square;
     if (work->visited > 4 && work->square > 0 &&
         is_hopeless(work, sharing * sharing, error, allowed))
       return false;
+    const struct cut_interval *u = &tree->axes[0].level[level][top->at[0]];
+    const struct cut_interval *v = &tree->axes[1].level[level][top->at[1]];
     pop(work);
-    cut_seen_prepare(&work->nodes, top.level + 1);
-    const struct cut_interval *u = &tree->axes[0].level[top.level][top.at[0]];
-    const struct cut_interval *v = &tree->axes[1].level[top.level][top.at[1]];
-    add_block(work, top.level + 1, (int[2]){u->child, v->child},
+    cut_seen_prepare(&work->seen, level + 1);
+    add_block(work, level + 1, (int[2]){u->child, v->child},
               (int[2]){u->child + u->children, v->child + v->children});
     if (work->cost > worth * work->budget) return false;
   }
-  return true;
 }
 
 /* ---- Steps 4 and 5 ---- */
@@ -240,28 +254,30 @@ static bool refine(struct cut_work *work, double tolerance, double least, double
 /* Near the aperture, where the st window hides a part of it: what is left may be slivers of views,
  * of which the estimates know little. */
 static bool is_clipped(const struct cut_seen *nodes) {
-  const struct cut_seen_level *root = &nodes->level[0];
-  return root->wide && !(root->spots[0]->whole && root->spots[1]->whole);
+  return nodes->level[0].width.wide &&
+         !(cut_seen_whole(nodes, 0, 0, 0) && cut_seen_whole(nodes, 0, 1, 0));
 }
 
 /* A cut's sum. False: it is too expensive. */
 static bool sum_cut(struct cut_work *work, double irradiance[3], double *predicted) {
-  const struct cut_tree *tree = work->nodes.tree;
-  const double per_height = work->nodes.per_height;
-  const double sent = fmin(tree->brightest * per_height * per_height, tree->hemisphere);
-  const double least = least_share * sent;
-  double aim = margin * work->tolerance - rounding, more = 0, error = 0, most = 0;
+  const struct cut_tree *tree = work->seen.tree;
+  const double least = cut_allowed_least(tree, work->seen.per_height);
+  double aim = cut_allowed_share(work->tolerance), more = 0, error = 0, most = 0;
   if (!(aim > 0) || !start(work, aim)) return false;
-  if (is_clipped(&work->nodes)) aim *= clipped_margin;
+  if (is_clipped(&work->seen)) aim *= clipped_margin;
   for (int round = 0; round < ROUNDS; ++round) {
     double rgb[3] = {0}, brighter = 0; /* the error of light that was not estimated */
     if (!refine(work, aim, least, more)) return false;
     for (int k = 0; k < work->count; ++k)
-      if (!cut_seen_light(&work->nodes, &work->heap[k], rgb, &brighter)) return false;
-    most = fmax(fmax(fmax(rgb[0], rgb[1]), rgb[2]), least);
-    error = error_sum(work) + brighter;
-    for (int c = 0; c < 3; ++c) irradiance[c] = fmax(rgb[c], tree->least);
-    *predicted = rounding + (most > 0 ? error / most : 0);
+      if (!cut_seen_light(&work->seen, &work->node[work->heap[k].node], rgb, &brighter))
+        return false;
+    most = least;
+    for (int c = 0; c < 3; ++c) {
+      most = simd_max(rgb[c], most);
+      irradiance[c] = simd_max(rgb[c], tree->least);
+    }
+    error = work->error + brighter;
+    *predicted = cut_rounding + (most > 0 ? error / most : 0);
     if (error <= aim * most) return true;
     if (brighter > aim * most) return false;
     more = most - brighter / aim - work->light;
@@ -281,7 +297,7 @@ bool cut_sum(const struct cut_tree *tree, const struct seen_page *seen, double t
              struct cut_work *work, double irradiance[3], struct cut_counts *counts) {
   const struct seen_page scaled = cut_tree_seen(tree, seen);
   if (scaled.kernel.shininess > 0 || !(scaled.height > 0) || !is_above(&scaled)) return false;
-  if (!cut_seen_begin(tree, &scaled, &work->nodes)) {
+  if (!cut_seen_begin(tree, &scaled, &work->seen)) {
     counts->no_memory = true;
     return false;
   }

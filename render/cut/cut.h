@@ -38,6 +38,18 @@ struct cut_counts {
   bool no_memory; /* for a sum, which was not done: that of the micro lights has other digits */
 };
 
+/* The light of up to four receivers who see all of the tree's page, and its predicted error: the
+ * bits that cut_sum finds. Only those are `done` for whom the tree's root is exact enough, as far
+ * away; of the others nothing is known. All of `seen` must be set, more than once if there are
+ * fewer. */
+enum { CUT_ROOTS = 4 };
+struct cut_root {
+  double irradiance[3], error;
+  bool done;
+};
+void cut_roots(const struct cut_tree *tree, const struct seen_page seen[CUT_ROOTS], int count,
+               double tolerance, struct cut_root roots[CUT_ROOTS]);
+
 /* Scratch memory of one thread. */
 struct cut_work;
 struct cut_work *cut_work_make(void);      /* NULL: no memory */

@@ -13,7 +13,10 @@ int cut_axis_levels(int views) {
 }
 
 void cut_axis_free(struct cut_axis *axis) {
-  for (int level = 0; level < CUT_LEVELS; ++level) free(axis->level[level]);
+  for (int level = 0; level < CUT_LEVELS; ++level) {
+    free(axis->level[level]);
+    free(axis->fours[level]);
+  }
   *axis = (struct cut_axis){0};
 }
 
@@ -97,9 +100,25 @@ static void set_interval(const struct light_axis *axis, int first, int last,
   for (int k = 0; k < interval->pieces; ++k) set_hinge(interval, k);
 }
 
+static enum result set_fours(struct cut_axis *made, int level, struct error *error) {
+  const int count = made->count[level];
+  struct cut_four *fours = calloc((size_t)(count + 3) / 4, sizeof *fours);
+  if (!fours) return result_no_memory(error);
+  made->fours[level] = fours;
+  for (int k = 0; k < count; ++k) {
+    const struct cut_interval *from = &made->level[level][k];
+    struct cut_four *four = &fours[k / 4];
+    four->center[k % 4] = from->center;
+    four->half[k % 4] = from->half;
+    four->per_half[k % 4] = from->per_half;
+    four->size[k % 4] = from->moment[0];
+  }
+  return RESULT_OK;
+}
+
 enum result cut_axis_make(const struct light_axis *axis, int levels, struct cut_axis *made,
                           struct error *error) {
-  *made = (struct cut_axis){0};
+  *made = (struct cut_axis){.per_step = 1 / axis->far_step};
   for (int level = 0; level < levels; ++level) {
     int room = level == 0 ? 1 : 2 * made->count[level - 1];
     struct cut_interval *out = calloc((size_t)room, sizeof *out);
@@ -120,6 +139,7 @@ enum result cut_axis_make(const struct light_axis *axis, int levels, struct cut_
     for (int k = 0; k < made->count[level]; ++k)
       made->reach[level] = fmax(made->reach[level], out[k].half);
     made->widest[level] = 2 * made->reach[level] / axis->far_step;
+    if (set_fours(made, level, error) != RESULT_OK) return RESULT_MEMORY;
   }
   return RESULT_OK;
 }
@@ -239,8 +259,7 @@ static void add_whole(const struct cut_interval *interval, const struct cut_sigh
   }
 }
 
-static void store(struct sums *sums, struct cut_taps *taps) {
-  for (int k = taps->count; k & 3; ++k) sums->moment[k] = (simd_float4){0};
+static void store(const struct sums *sums, struct cut_taps *taps) {
   for (int k = 0; k < taps->count; k += 4) {
     const simd_float4 *row = sums->moment + k;
     const simd_float4 low[2] = {__builtin_shufflevector(row[0], row[1], 0, 4, 1, 5),
@@ -259,28 +278,31 @@ enum { FEW = 4 };
 
 bool cut_taps_find(const struct cut_interval *interval, const struct cut_sight *sight,
                    int far_count, struct cut_taps *taps) {
-  struct cut_piece pieces[3];
+  const struct cut_piece *pieces = interval->piece;
+  struct cut_piece seen[3];
   struct sums sums;
-  int count = 0;
-  double low = INFINITY, high = -INFINITY;
-  for (int k = 0; k < interval->pieces; ++k) {
-    struct cut_piece *piece = &pieces[count];
-    *piece = interval->piece[k];
-    if (sight->clipped && !see(sight, far_count, piece)) continue;
-    double first = sight->place + sight->rate * piece->low;
-    double second = sight->place + sight->rate * piece->high;
-    low = simd_min(low, simd_min(first, second));
-    high = simd_max(high, simd_max(first, second));
-    ++count;
+  int count = interval->pieces;
+  if (sight->clipped) {
+    count = 0;
+    pieces = seen;
+    for (int k = 0; k < interval->pieces; ++k) {
+      seen[count] = interval->piece[k];
+      count += see(sight, far_count, &seen[count]);
+    }
   }
   taps->count = 0;
   if (count == 0) return true;
+  const double first = sight->place + sight->rate * pieces[0].low;
+  const double second = sight->place + sight->rate * pieces[count - 1].high;
+  const double low = simd_min(first, second), high = simd_max(first, second);
   if (!(high - low < CUT_TAPS - 2)) return false;
-  taps->first = clamp(whole(low), far_count - 1);
-  taps->count = clamp(whole(high) + 1, far_count - 1) - taps->first + 1;
-  memset(sums.moment, 0, (size_t)taps->count * sizeof sums.moment[0]);
-  if (!sight->clipped && whole(high) - whole(low) <= FEW)
-    add_whole(interval, sight, whole(low), whole(high), taps->first, far_count, &sums);
+  const int from = whole(low), to = whole(high);
+  taps->first = clamp(from, far_count - 1);
+  taps->count = clamp(to + 1, far_count - 1) - taps->first + 1;
+  for (int k = 0; k < 4; ++k) sums.moment[k] = (simd_float4){0};
+  for (int k = 4; k < taps->count; k += 4) memset(sums.moment + k, 0, 4 * sizeof sums.moment[0]);
+  if (!sight->clipped && to - from <= FEW)
+    add_whole(interval, sight, from, to, taps->first, far_count, &sums);
   else
     for (int k = 0; k < count; ++k)
       add_cells(interval, sight, taps->first, far_count, &pieces[k], &sums);

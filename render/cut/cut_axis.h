@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "base/result.h"
+#include "base/simd.h"
 #include "light/light.h"
 
 enum { CUT_LEVELS = 16, CUT_TAPS = 16, CUT_MOMENTS = 4, CUT_HINGE = CUT_MOMENTS + 3 };
@@ -40,13 +41,20 @@ struct cut_interval {
   float hinge[3][CUT_HINGE][CUT_MOMENTS];
 };
 
+/* Four neighbouring intervals, what is needed of each to see it; those beyond the last are zero. */
+struct cut_four {
+  simd_doubles4 center, half, per_half, size; /* size: moment[0] */
+};
+
 /* Level 0 is one block, each further one halves all blocks of more than one view: children of
  * 2 n + 1 views have n + 1 and n. */
 struct cut_axis {
   int count[CUT_LEVELS];
   struct cut_interval *level[CUT_LEVELS]; /* owned */
+  struct cut_four *fours[CUT_LEVELS];     /* the same, by four; owned */
   double reach[CUT_LEVELS];               /* largest `half` of a level */
   double widest[CUT_LEVELS];              /* in samples of st for a unit change of s per length */
+  double per_step;                        /* 1/(from sample to sample of st) */
 };
 
 /* Levels until all blocks are single views. */

@@ -188,6 +188,8 @@ static enum result build_tree(struct cut_tree *tree, int threads, struct error *
   enum result result = RESULT_OK;
   for (int axis = 0; axis < 2 && result == RESULT_OK; ++axis)
     result = cut_axis_make(&axes[axis], tree->levels, &tree->axes[axis], error);
+  for (int level = 0; level < tree->levels; ++level)
+    for (int axis = 0; axis < 2; ++axis) tree->fours += (tree->axes[axis].count[level] + 3) / 4;
   if (result == RESULT_OK) result = allocate(tree, error);
   struct build build = {.tree = tree};
   int nodes = 0;

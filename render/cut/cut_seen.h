@@ -1,30 +1,17 @@
-/* cut_seen.h - a tree's nodes as one receiver sees them: what is estimated of a node, at the
- * cost of a look at one st sample, and its light. All lengths are in the tree's units
+/* cut_seen.h - a tree's nodes as one receiver sees them. All lengths are in the tree's units
  * (cut_tree_seen). */
 #ifndef CUT_SEEN_H
 #define CUT_SEEN_H
 
+#include "cut/cut_node.h"
 #include "cut/cut_tree.h"
 #include "microlight/seen_page.h"
 
-/* Where the receiver sees the center of an interval. */
-struct cut_spot {
-  double slope, place;   /* place: number of the st sample */
-  double size;           /* of the interval, in slopes */
-  int cell;              /* number of the st sample before it */
-  int line;              /* of the nearest st sample */
-  double per_curvature;  /* error per curvature of radiance at that; 0 if unseen */
-  bool seen, whole;      /* is any of it, is all of it within the st window */
-  struct cut_taps *taps; /* NULL: not made yet */
-};
-
 /* What the nodes of a level have in common. */
 struct cut_seen_level {
-  struct cut_spot *spots[2]; /* NULL: not made yet */
-  double across;             /* half of a node's width, in st samples */
-  bool narrow;               /* seen at most one sample wide: errors are those at lines */
-  bool wide;                 /* wider than errors are known for */
-  int spread;      /* else errors are those of this of the CUT_SPREADS widths or the next */
+  struct cut_spots *spots[2]; /* of four intervals each */
+  struct cut_taps *taps[2];   /* of each interval; `count` is -1 where they are not made yet */
+  struct cut_width width;
   double reach[2]; /* largest distance from a node's center, in slopes */
   double samples;  /* of st that a node is summed over */
 };
@@ -33,21 +20,16 @@ struct cut_seen_level {
 struct cut_seen {
   const struct cut_tree *tree;
   const struct seen_page *seen;
-  double w;                /* cut.h */
-  double rate[2];          /* st samples per length along the aperture */
-  double per_height, tilt; /* 1/height; length of the normal's part in the uv plane */
+  double w;                 /* cut.h */
+  double rate[2], speed[2]; /* st samples per length along the aperture; its size, */
+  double per_speed[2];      /* and 1 over that */
+  double per_height;        /* 1/height */
+  double tilt, slant;       /* cut_nodes (cut_four.h) */
+  int prepared, fours;      /* levels, and the fours of intervals in them */
   struct cut_seen_level level[CUT_LEVELS];
-  struct cut_spot *spots; /* owned */
-  struct cut_taps *taps;  /* owned */
-  size_t room, taps_used;
-};
-
-struct cut_node {
-  int level, at[2];
-  double light;               /* estimated: of the largest channel */
-  double spread;              /* error: views that differ from the node */
-  double curvature;           /* error: what the kernel's expansion leaves out */
-  double curvature_per_light; /* of that, what is proportional to the light */
+  struct cut_spots *spots; /* owned */
+  struct cut_taps *taps;   /* owned */
+  int room;                /* fours */
 };
 
 void cut_seen_free(struct cut_seen *nodes);
@@ -56,15 +38,23 @@ void cut_seen_free(struct cut_seen *nodes);
 bool cut_seen_begin(const struct cut_tree *tree, const struct seen_page *seen,
                     struct cut_seen *nodes);
 
-/* To be called before a level's nodes are estimated. */
+/* To be called before a level's nodes are estimated, level by level; more than once is allowed. */
 void cut_seen_prepare(struct cut_seen *nodes, int level);
 
-/* Estimates a node. False: nothing of it is seen. */
-bool cut_seen_estimate(const struct cut_seen *nodes, int level, const int at[2],
-                       struct cut_node *node);
+/* Is any, is all of an interval within the st window? */
+static inline bool cut_seen_any(const struct cut_seen *nodes, int level, int axis, int at) {
+  return nodes->level[level].spots[axis][at >> 2].seen[at & 3];
+}
+static inline bool cut_seen_whole(const struct cut_seen *nodes, int level, int axis, int at) {
+  return nodes->level[level].spots[axis][at >> 2].whole[at & 3];
+}
 
-/* Adds a node's light; and to `error` its curvature_per_light of what is more than was estimated.
- * False: more st samples than CUT_TAPS. */
+/* Estimates up to four nodes of a level. Returns how many are seen: those are written to the first
+ * of `nodes`, in their order. */
+int cut_seen_estimate(const struct cut_seen *seen, int level, const int (*at)[2], int count,
+                      struct cut_node *const *nodes);
+
+/* Adds a node's light, as cut_node_light. False: more st samples than CUT_TAPS. */
 bool cut_seen_light(struct cut_seen *nodes, const struct cut_node *node, double rgb[3],
                     double *error);
 

@@ -62,6 +62,7 @@ struct cut_tree {
                                     is not owned */
   double per_unit;               /* a power of two: units in a length of the scene */
   int levels;                    /* the last is that of the single views: no images */
+  int fours;                     /* of intervals, of all levels along both axes */
   struct cut_axis axes[2];
   struct cut_level level[CUT_LEVELS];
   float error[CUT_CODES]; /* what a code means: mean radiance */

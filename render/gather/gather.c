@@ -3,7 +3,8 @@
  *      shadow rays are traced. Then for each receiver:
  *   2. The page, or the level of it that its distance calls for, as the receiver sees it
  *      (seen_page.h); nothing is summed where it is turned away or below the tangent plane.
- *   3. If there are trees and nothing hides a part of the aperture: the cut (cut.h).
+ *   3. If there are trees and nothing hides a part of the aperture: the cut (cut.h); for four
+ *      receivers at once, where these are so far away that the tree's root is enough.
  *   4. Else the strips of micro lights (strips.h), the parts of the aperture that are visible
  *      past occluders (visible.h), and the predicted error, by which the rule is chosen.
  *   5. The sum over the micro lights of each visible part (row_sum.h, paper.h, closed_form.h).
@@ -16,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/simd.h"
 #include "cut/cut.h"
 #include "microlight/closed_form.h"
 #include "microlight/levels.h"
@@ -98,16 +100,13 @@ struct look {
   struct gathered *gathered;
 };
 
-static void add(const struct look *look, const double irradiance[3], const double gloss[3]) {
-  for (int c = 0; c < 3; ++c) {
-    look->gathered->irradiance[c] += look->light->gain[c] * irradiance[c];
-    look->gathered->gloss[c] += look->light->gain[c] * gloss[c];
-  }
+static void add(const struct look *look, const double light[3], double sum[3]) {
+  for (int c = 0; c < 3; ++c) sum[c] += look->light->gain[c] * light[c];
 }
 
 static void note_error(struct gather *gather, const struct look *look, double error) {
-  look->gathered->error = fmax(look->gathered->error, error);
-  gather->counts.error = fmax(gather->counts.error, error);
+  look->gathered->error = simd_max(error, look->gathered->error);
+  gather->counts.error = simd_max(error, gather->counts.error);
 }
 
 /* ---- What a receiver sees of a page ---- */
@@ -210,7 +209,6 @@ static enum result clip(struct gather *gather, const struct visible_rectangle *r
 
 /* By the cut, if there are trees and it takes this receiver. */
 static bool take_cut(struct gather *gather, const struct look *look, const struct seen_page *seen) {
-  static const double gloss[3];
   const struct gather_prepared *prepared = gather->settings->prepared;
   struct cut_counts counts = {0};
   double irradiance[3];
@@ -222,9 +220,32 @@ static bool take_cut(struct gather *gather, const struct look *look, const struc
   gather->no_memory |= !gather->cut || counts.no_memory;
   if (!taken) return false;
   gather->counts.nodes += counts.nodes + counts.views;
-  add(look, irradiance, gloss);
+  add(look, irradiance, look->gathered->irradiance);
   note_error(gather, look, counts.error);
   return true;
+}
+
+/* By the tree's root alone, for up to CUT_ROOTS receivers. Marks those whose light it added. */
+static void take_roots(struct gather *gather, const struct look *looks, int count, bool *done) {
+  const struct gather_prepared *prepared = gather->settings->prepared;
+  struct seen_page seen[CUT_ROOTS];
+  struct cut_root roots[CUT_ROOTS];
+  int number[CUT_ROOTS], facing = 0;
+  for (int k = 0; k < count; ++k) {
+    number[facing] = k;
+    facing += seen_page_find(looks[k].page, looks[k].receiver, &seen[facing]);
+  }
+  for (int k = facing; facing > 0 && k < CUT_ROOTS; ++k) seen[k] = seen[0];
+  cut_roots(prepared->trees[looks->page_number], seen, facing, gather->settings->tolerance, roots);
+  for (int k = 0; k < facing; ++k) {
+    const struct look *look = &looks[number[k]];
+    if (!roots[k].done) continue;
+    done[number[k]] = true;
+    add(look, roots[k].irradiance, look->gathered->irradiance);
+    note_error(gather, look, roots[k].error);
+    ++gather->counts.nodes;
+    gather->counts.open_views += gather->settings->occlusion != NULL;
+  }
 }
 
 static double pi_error(const struct seen_page *seen, const struct strips strips[2]) {
@@ -278,7 +299,8 @@ static enum result sum_strips(struct gather *gather, const struct look *look,
     result = row_sum_light(&gather->sum, seen, strips, rule, &gather->orders, irradiance, gloss,
                            &gather->counts, error);
   }
-  if (result == RESULT_OK) add(look, irradiance, gloss);
+  if (result == RESULT_OK) add(look, irradiance, look->gathered->irradiance);
+  if (result == RESULT_OK) add(look, gloss, look->gathered->gloss);
   return result;
 }
 
@@ -336,6 +358,25 @@ static bool find_shadows(struct gather *gather, const struct light_page *page,
                            (const double(*)[3])corners);
 }
 
+/* `like` is the first of `count` receivers: takes up to CUT_ROOTS of them. */
+static enum result take_four(struct gather *gather, const struct look *like, int count,
+                             struct error *error) {
+  const struct gather_prepared *prepared = gather->settings->prepared;
+  struct look looks[CUT_ROOTS];
+  bool done[CUT_ROOTS] = {false};
+  enum result result = RESULT_OK;
+  if (count > CUT_ROOTS) count = CUT_ROOTS;
+  for (int k = 0; k < count; ++k) {
+    looks[k] = *like;
+    looks[k].receiver += k;
+    looks[k].gathered += k;
+  }
+  if (prepared && prepared->trees && !like->shadows) take_roots(gather, looks, count, done);
+  for (int k = 0; k < count && result == RESULT_OK; ++k)
+    if (!done[k]) result = take_look(gather, &looks[k], error);
+  return result;
+}
+
 enum result gather_light(struct gather *gather, const struct receiver *receivers, int count,
                          struct gathered *gathered, struct error *error) {
   const struct gather_settings *settings = gather->settings;
@@ -345,10 +386,10 @@ enum result gather_light(struct gather *gather, const struct receiver *receivers
     const struct light *light = &settings->lights[l];
     for (int page = 0; page < light->count && result == RESULT_OK; ++page, ++number) {
       bool shadows = find_shadows(gather, &light->pages[page], receivers, count);
-      for (int k = 0; k < count && result == RESULT_OK; ++k) {
+      for (int k = 0; k < count && result == RESULT_OK; k += CUT_ROOTS) {
         const struct look look = {light,   &light->pages[page], number,
                                   shadows, &receivers[k],       &gathered[k]};
-        result = take_look(gather, &look, error);
+        result = take_four(gather, &look, count - k, error);
       }
     }
   }

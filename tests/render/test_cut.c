@@ -190,6 +190,46 @@ TEST(test_work) {
   }
 }
 
+/* Four receivers at once, by the root: the bits of one by one, whoever the others are. */
+static int hold_roots(const struct lit *lit, const struct receiver receivers[CUT_ROOTS],
+                      struct cut_work *work) {
+  struct seen_page seen[CUT_ROOTS];
+  struct cut_root roots[CUT_ROOTS];
+  int done = 0;
+  for (int k = 0; k < CUT_ROOTS; ++k)
+    assert_true(seen_page_find(&lit->light.pages[0], &receivers[k], &seen[k]));
+  cut_roots(lit->prepared.trees[0], seen, CUT_ROOTS, 1e-2, roots);
+  for (int k = 0; k < CUT_ROOTS; ++k) {
+    struct cut_counts counts = {0};
+    double irradiance[3];
+    if (!roots[k].done) continue;
+    assert_true(cut_sum(lit->prepared.trees[0], &seen[k], 1e-2, work, irradiance, &counts));
+    assert_int_equal(counts.nodes, 1);
+    assert_memory_equal(roots[k].irradiance, irradiance, sizeof irradiance);
+    assert_true(roots[k].error == counts.error);
+    ++done;
+  }
+  return done;
+}
+
+TEST(test_roots) {
+  struct receiver receivers[COUNT];
+  struct cut_work *work = cut_work_make();
+  for (int lamp = SMOOTH; lamp < LAMPS; ++lamp) {
+    struct lit lit;
+    const double distance = lamp % 2 ? 3 : INFINITY;
+    int done = 0;
+    make(&lit, (enum lamp)lamp, small, distance, 2);
+    make_receivers(receivers, COUNT, 2, 300, distance);
+    for (int k = 0; k < COUNT; k += 7) receivers[k].normal[2] *= -1;
+    for (int k = 0; k + CUT_ROOTS <= COUNT; k += CUT_ROOTS)
+      done += hold_roots(&lit, receivers + k, work);
+    assert_true(done > COUNT / 4 && done < COUNT);
+    release(&lit);
+  }
+  cut_work_free(work);
+}
+
 /* On the way from the lamp: first micro lights, then all views at once, then few nodes, and no step
  * in the irradiance where one gives way to the next. */
 TEST(test_way_from_the_lamp) {
