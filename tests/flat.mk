@@ -116,6 +116,7 @@ endef
 $(foreach t,$(TEST_SOURCES),$(eval $(call test_program,$(t))))
 
 $(B)/tests/unit/test_slab_accuracy: $(B)/tests/bench/lamp.o
+$(B)/tests/unit/test_polls: $(B)/bakeslab/preload/polls.o
 
 $(TEST_BATS:%.bats=$(B)/%.log): $(B)/%.log: %.bats $(BIN) FORCE
 	@mkdir -p $(@D)
