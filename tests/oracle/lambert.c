@@ -49,9 +49,8 @@ static void visible(const struct oracle_place *place, const double window[2], in
   x[1] = fminl(x[1], fmaxl(a, b));
 }
 
-/* Keeps the part of a convex polygon in front of the receiver. */
-static int clip(const long double from[][3], int count, const long double n[3],
-                long double to[][3]) {
+int lambert_clip(const long double from[][3], int count, const long double n[3],
+                 long double to[][3]) {
   int kept = 0;
   for (int k = 0; k < count; ++k) {
     const long double *a = from[k], *b = from[(k + 1) % count];
@@ -69,9 +68,23 @@ static int clip(const long double from[][3], int count, const long double n[3],
   return kept;
 }
 
+long double lambert_polygon(const long double corners[][3], int count, const long double n[3]) {
+  long double sum = 0;
+  for (int k = 0; k < count; ++k) {
+    const long double *a = corners[k], *b = corners[(k + 1) % count];
+    long double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                            a[0] * b[1] - a[1] * b[0]};
+    long double size = sqrtl(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
+    long double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    if (size > 0)
+      sum += atan2l(size, dot) / size * (cross[0] * n[0] + cross[1] * n[1] + cross[2] * n[2]);
+  }
+  return fabsl(sum) / 2;
+}
+
 long double oracle_lambert(const struct slab *slab, const double p[3], const double n[3]) {
   struct oracle_place place;
-  long double x[2], y[2], sum = 0;
+  long double x[2], y[2];
   oracle_place(slab, p, n, &place);
   visible(&place, slab->st_window, 0, x);
   visible(&place, slab->st_window + 2, 1, y);
@@ -79,18 +92,8 @@ long double oracle_lambert(const struct slab *slab, const double p[3], const dou
   const long double whole[4][3] = {
       {x[0], y[0], -1}, {x[1], y[0], -1}, {x[1], y[1], -1}, {x[0], y[1], -1}};
   long double part[8][3];
-  int count = clip(whole, 4, place.n, part);
-  for (int k = 0; k < count; ++k) {
-    const long double *a = part[k], *b = part[(k + 1) % count];
-    long double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                            a[0] * b[1] - a[1] * b[0]};
-    long double size = sqrtl(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
-    long double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    if (size > 0)
-      sum += atan2l(size, dot) / size *
-             (cross[0] * place.n[0] + cross[1] * place.n[1] + cross[2] * place.n[2]);
-  }
-  return fabsl(sum) / 2;
+  int count = lambert_clip(whole, 4, place.n, part);
+  return lambert_polygon(part, count, place.n);
 }
 
 /* The power of the cosine between the normal and the half vector. */
