@@ -3,7 +3,9 @@
  *   2. Trace rays to the corners and the middle of each block (ask_blocks, trace).
  *   3. Mark blocks whose rays are all clear as visible; quarter those whose rays disagree, down to
  *      cells of 1/n of the sides, n = grid * 2^levels, and go on with 2 (decide).
- *   4. Merge the visible cells into rectangles (merge).
+ *   4. Merge the visible cells into rectangles, rows or columns of cells: what makes fewer of them
+ *      and, if both are as many, has more ends at shadows (merge).
+ *   5. Put these ends where rays along the rectangles' middle lines change (place_ends).
  * Rays go to points of a lattice of 2n x 2n steps: cells' corners are at even steps and their
  * middles at odd ones, and so are those of blocks of any size. A point is traced once. */
 #include "shadow/visible.h"
@@ -15,7 +17,8 @@
 #include "base/array.h"
 #include "shadow/occlusion.h"
 
-enum { BATCH = 256 }; /* rays */
+enum { BATCH = 256 };  /* rays */
+enum { HALVINGS = 3 }; /* of a cell in which a rectangle ends */
 enum { UNKNOWN = 0, CLEAR, BLOCKED, ASKED };
 
 struct place {
@@ -24,6 +27,12 @@ struct place {
 
 struct run {
   int low, high, since; /* cells along the row; its first row */
+};
+
+struct end {
+  double *place;        /* in a rectangle, on the axis of the rows */
+  double clear, hidden; /* places on that axis between which it is */
+  double middle;        /* of the rectangle across it */
 };
 
 struct places {
@@ -261,10 +270,11 @@ static int find_runs(const unsigned char *row, int cells, int since, struct run 
 }
 
 /* Runs of visible cells along the axis, and equal runs of successive rows as one rectangle.
- * Counts them; writes them too where `query` is given. -1 without memory. */
-static int merge(const struct visible_query *query, struct visible *visible, int axis) {
+ * Counts them and their ends inside; writes them too where `query` is given. -1 without memory. */
+static int merge(const struct visible_query *query, struct visible *visible, int axis, int *ends) {
   struct visible_work *work = visible->work;
   int n = work->cells, open_count = 0, total = 0;
+  *ends = 0;
   struct run *open = work->runs[0], *next = work->runs[1];
   for (int y = 0; y <= n; ++y) {
     const unsigned char *row = work->clear[axis] + (size_t)y * (size_t)n;
@@ -276,6 +286,7 @@ static int merge(const struct visible_query *query, struct visible *visible, int
         next[m].since = open[k].since;
       } else {
         ++total;
+        *ends += (open[k].low > 0) + (open[k].high < n);
         if (query && !emit(query, visible, axis, &open[k], y)) return -1;
       }
     }
@@ -285,6 +296,48 @@ static int merge(const struct visible_query *query, struct visible *visible, int
     open_count = count;
   }
   return total;
+}
+
+/* The ends inside the whole of some rectangles, each between the middles of the last visible cell
+ * and of the next one. */
+static int ends_of(const struct visible_query *query, const struct visible *visible, int axis,
+                   struct visible_rectangle *r, struct end *ends) {
+  const struct visible_rectangle *whole = &query->whole;
+  double half = (whole->high[axis] - whole->low[axis]) / visible->work->cells / 2;
+  double middle = (r->low[1 - axis] + r->high[1 - axis]) / 2;
+  int count = 0;
+  if (r->low[axis] > whole->low[axis])
+    ends[count++] = (struct end){&r->low[axis], r->low[axis] + half, r->low[axis] - half, middle};
+  if (r->high[axis] < whole->high[axis])
+    ends[count++] =
+        (struct end){&r->high[axis], r->high[axis] - half, r->high[axis] + half, middle};
+  return count;
+}
+
+/* Ends move by less than half a cell: rectangles stay disjoint, and inside. */
+static void place_ends(const struct visible_query *query, struct visible *visible, int axis) {
+  struct end ends[BATCH];
+  double points[BATCH][3];
+  bool blocked[BATCH];
+  for (int r = 0; r < visible->count;) {
+    int count = 0;
+    while (r < visible->count && count + 2 <= BATCH)
+      count += ends_of(query, visible, axis, &visible->rectangles[r++], &ends[count]);
+    for (int halving = 0; halving < HALVINGS; ++halving) {
+      for (int k = 0; k < count; ++k) {
+        double at = (ends[k].clear + ends[k].hidden) / 2;
+        for (int c = 0; c < 3; ++c)
+          points[k][c] = query->origin[c] + at * query->along[axis][c] +
+                         ends[k].middle * query->along[1 - axis][c];
+      }
+      occlusion_blocked(query->occlusion, query->lifted, (const double(*)[3])points, count,
+                        blocked);
+      for (int k = 0; k < count; ++k)
+        *(blocked[k] ? &ends[k].hidden : &ends[k].clear) = (ends[k].clear + ends[k].hidden) / 2;
+    }
+    for (int k = 0; k < count; ++k) *ends[k].place = (ends[k].clear + ends[k].hidden) / 2;
+    visible->shadow_rays += (uint64_t)(HALVINGS * count);
+  }
 }
 
 enum result visible_find(const struct visible_query *query, struct visible *visible,
@@ -306,6 +359,10 @@ enum result visible_find(const struct visible_query *query, struct visible *visi
     const struct run all = {0, cells, 0};
     return emit(query, visible, 0, &all, cells) ? RESULT_OK : result_no_memory(error);
   }
-  int axis = merge(NULL, visible, 0) <= merge(NULL, visible, 1) ? 0 : 1;
-  return merge(query, visible, axis) < 0 ? result_no_memory(error) : RESULT_OK;
+  int ends[2], rows = merge(NULL, visible, 0, &ends[0]),
+               columns = merge(NULL, visible, 1, &ends[1]);
+  int axis = rows < columns || (rows == columns && ends[0] >= ends[1]) ? 0 : 1;
+  if (merge(query, visible, axis, ends) < 0) return result_no_memory(error);
+  place_ends(query, visible, axis);
+  return RESULT_OK;
 }

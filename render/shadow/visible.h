@@ -4,8 +4,10 @@
  * The rule: the rectangle is cut into `grid` x `grid` blocks. Shadow rays go to the four
  * corners (shared between blocks) and the middle of each; where the five agree, the block
  * is taken as wholly visible or wholly hidden, otherwise it is quartered, down to 1/`edge`
- * of the rectangle's sides, where the ray to the middle decides for the whole. So an
- * occluder that hides less than a block may be missed, and edges of shadows are off by at
+ * of the rectangle's sides, where the ray to the middle decides for the whole. Such parts are
+ * merged along rows or columns, whichever ends at more shadows, and each end is then put where rays
+ * along its middle line change. So an occluder that hides less than a block may be missed; edges of
+ * shadows are off by 1/16 of 1/`edge` of the aperture, those along the rows (columns) by at
  * most half of 1/`edge` of the aperture. Deterministic. */
 #ifndef VISIBLE_H
 #define VISIBLE_H

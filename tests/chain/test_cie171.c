@@ -309,9 +309,9 @@ TEST(test_obstruction) {
   chain_text("box.obj", "a", "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n");
   by_renderslab("--light wall-slab.exr --mesh box.obj", places, 11, values);
   expect("5.7 reflection by a lit wall behind a partition: renderslab", values, unit, right, 11,
-         1.8);
+         0.3);
   by_renderslab("--light wall-slab.exr --mesh box.obj --tolerance 0.001", places, 11, values);
-  expect("    with --tolerance 0.001", values, unit, right, 11, 0.6);
+  expect("    with --tolerance 0.001", values, unit, right, 11, 0.1);
   by_povray("#include \"wall.inc\"\nobject { Wall_Canned(1, 1) }\n" PARTITION, room, 2, values);
   expect("    POV-Ray, sheet of 16x16 lights", values, unit, right, 11, 8);
 
