@@ -7,5 +7,6 @@ void picture_free(struct picture *picture) {
   if (!picture) return;
   free(picture->rgb);
   free(picture->error);
+  free(picture->about);
   memset(picture, 0, sizeof *picture);
 }

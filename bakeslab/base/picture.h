@@ -6,6 +6,7 @@ struct picture {
   int width, height;
   float *rgb;   /* owned */
   float *error; /* bound on the error of each value, INFINITY where unknown; owned; NULL: none */
+  char *about;  /* what is known of the error of the whole; owned; NULL: nothing */
 };
 
 void picture_free(struct picture *picture); /* NULL and zeroed pictures allowed */

@@ -20,7 +20,7 @@ enum result slab_exr_read(const char *path, struct picture *picture, struct erro
  * `comment` goes into the string attribute "comments"; NULL for none. A value
  * that half cannot hold is refused. A picture's `error` becomes the channels error.R, error.G and
  * error.B of a part of their own, `error`, so that readers of pictures need not know of it; with
- * float only. Readers leave it NULL. */
+ * float only. Its `about` goes into the string attribute "error". Readers leave both NULL. */
 enum result slab_exr_write(const char *path, const struct picture *picture, int half,
                            const char *comment, struct error *error);
 

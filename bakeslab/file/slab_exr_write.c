@@ -60,6 +60,8 @@ static exr_result_t define_part(struct writer *writer, int index, const char *te
   }
   if (code == EXR_ERR_SUCCESS && raster->text)
     code = exr_attr_set_string(writer->context, part, text_name, raster->text);
+  if (code == EXR_ERR_SUCCESS && raster->about)
+    code = exr_attr_set_string(writer->context, part, "error", raster->about);
   return code;
 }
 
@@ -164,6 +166,7 @@ enum result slab_exr_put(struct output *output, const struct picture *picture, i
                                   .height = picture->height,
                                   .precision = half ? SLAB_PRECISION_HALF : SLAB_PRECISION_FLOAT,
                                   .text = (char *)comment, /* which is only read */
+                                  .about = picture->about,
                                   .rgb = picture->rgb}};
   parts[1] = parts[0];
   parts[1].layer = "error";

@@ -235,6 +235,8 @@ enum result slab_json_sampling(const struct slab *slab, struct slab_sampling *sa
       .sharpened = json_is_string(json_object_get(provenance, "sharpened")),
       .sample_noise = json_is_number(sample) ? json_number_value(sample) : NAN,
       .flux_noise = json_is_number(flux) ? json_number_value(flux) : NAN};
+  sampling->logluv = json_object_get(root, "logluv_white") != NULL;
+  if (result == RESULT_OK) result = get_white(root, sampling->white, error);
   json_decref(root);
   return result;
 }

@@ -18,6 +18,7 @@ struct slab_raster {
   double white[3];               /* LogLuv: factors on XYZ before encoding */
   char *text;                    /* the page's JSON, or NULL */
   const float *rgb;              /* width * height interleaved pixels, when writing */
+  const char *about;             /* EXR, when writing: string attribute "error"; NULL: none */
   const char *layer;             /* EXR, when writing: name of the part and of its channels, as in
                                     error.R; NULL: pageN, and R, G, B */
 };

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "file/slab_half.h"
-#include "file/slab_logluv.h"
+#include "slab/slab_logluv.h"
 
 struct page {
   struct slab_raster raster;

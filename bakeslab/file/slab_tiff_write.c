@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "file/slab_half.h"
-#include "file/slab_logluv.h"
+#include "slab/slab_logluv.h"
 #include "file/slab_tiff.h"
 
 /* SGILOG32 holds luminance from 2^-64 to 2^64 and chromaticities u', v' up to

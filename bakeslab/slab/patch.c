@@ -34,7 +34,6 @@ static void find_range(const struct slab *slab, int axis, const double *profile,
   while (last > first && profile[last] <= negligible * peak) --last;
   extent->low[axis] = slab_position(slab, axis, first) - half;
   extent->high[axis] = slab_position(slab, axis, last) + half;
-  extent->share *= (double)(last - first + 1) / count;
 }
 
 enum result patch_extent_find(const struct slab *slab, const struct patch_light *light,
@@ -58,7 +57,6 @@ enum result patch_extent_find(const struct slab *slab, const struct patch_light 
       for (int axis = 0; axis < SLAB_AXES; ++axis) profile[starts[axis] + (size_t)at[axis]] += size;
     }
   }
-  extent->share = 1;
   for (int axis = 0; axis < SLAB_AXES; ++axis)
     find_range(slab, axis, profile + starts[axis], extent);
   free(profile);
@@ -189,25 +187,4 @@ void patch_irradiance(const struct patch *patch, const struct patch_light *light
                                          patch->points[0], line->slope2) /
                                  all;
     }
-}
-
-enum result patch_weights(const struct patch *patch, const struct patch_light *light, int axis,
-                          double squares[PATCH_SIDE], struct error *error) {
-  size_t count = (size_t)light->samples[axis] * (size_t)light->samples[SLAB_S + axis];
-  double *weights = malloc(count * sizeof *weights);
-  if (!weights) return result_no_memory(error);
-  const struct patch_tap *tap = patch->taps[axis];
-  for (int r = 0; r < PATCH_SIDE; ++r) {
-    memset(weights, 0, count * sizeof *weights);
-    for (int p = 0; p < patch->points[axis]; ++p, ++tap)
-      for (int k = 0; k < 4 && tap->slope2 >= 0; ++k) {
-        double uv = (double)tap->high_uv, st = (double)tap->high_st;
-        weights[tap->corner[k]] +=
-            (k / 2 ? uv : 1 - uv) * (k % 2 ? st : 1 - st) / patch->points[axis];
-      }
-    squares[r] = 0;
-    for (size_t k = 0; k < count; ++k) squares[r] += weights[k] * weights[k];
-  }
-  free(weights);
-  return RESULT_OK;
 }

@@ -28,7 +28,6 @@ enum result patch_light_make(const struct slab *slab, struct patch_light *light,
  * axes: above 1/1000 of the axis's peak. */
 struct patch_extent {
   double low[SLAB_AXES], high[SLAB_AXES];
-  double share; /* of the slab's samples, in that part of all axes */
 };
 
 /* `light` is the slab's own. */
@@ -53,10 +52,5 @@ void patch_free(struct patch *patch);
  * area / z^2: the mean of L cos^4 over the aperture. */
 void patch_irradiance(const struct patch *patch, const struct patch_light *light,
                       double e[PATCH_RECEIVERS]);
-
-/* For each receiver along an axis (0: u, 1: v), the sum over the raster's columns (rows) of their
- * squared weights in that mean, for the light that patch_irradiance had last. */
-enum result patch_weights(const struct patch *patch, const struct patch_light *light, int axis,
-                          double squares[PATCH_SIDE], struct error *error);
 
 #endif

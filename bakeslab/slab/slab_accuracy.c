@@ -1,17 +1,16 @@
 /* slab_accuracy.c - the error of a slab by Richardson extrapolation from coarser copies of it.
  *
- * 1. Make the slab's luminance at five resolutions: as it is, and with s and t (or u and v)
- *    halved once and twice. A halved sample is the mean of the cells that it covers
- *    (slab_resample.h); a sharpened slab is made means again before, and sharpened after.
+ * 1. Make copies of the slab that err as it may (slab_variant.h): with s and t (or u and v) halved
+ *    once and twice, with its noise once more, and rounded to LogLuv once more.
  * 2. At each distance, place receivers over all of the patch that the light reaches, and
- *    integrate their irradiance by each of the five: E1, E2, E4 (patch.h).
+ *    integrate their irradiance by each copy (patch.h): by the halved ones E1, E2, E4.
  * 3. r = |E4 - E2| / |E2 - E1| (RMS over the receivers) is how much an error grows by a halving,
  *    as observed; it is kept within the bounds below (Roache 1994, section on the observed order).
  * 4. The error left in E1 is (E2 - E1) / (r - 1) at each receiver (Richardson and Gaunt 1927).
  *    Errors by st and by uv add up there, since both blur the irradiance.
- * 5. The noise of a receiver follows from the weights of all samples in its irradiance.
- * 6. An error is its RMS over the receivers, relative to the RMS of E1; the noise is added in
- *    quadrature.
+ * 5. What the noise changes is the error by noise, and so with the rounding.
+ * 6. An error is its RMS over the receivers, relative to the RMS of E1; those by resolution, noise
+ *    and rounding are added in quadrature.
  *
  * L. F. Richardson and J. A. Gaunt, "The deferred approach to the limit", Phil. Trans. Royal
  * Society A 226, 1927. P. J. Roache, "Perspective: a method for uniform reporting of grid
@@ -24,8 +23,7 @@
 
 #include "slab/patch.h"
 #include "slab/plane.h"
-#include "slab/slab_resample.h"
-#include "slab/slab_sharpen.h"
+#include "slab/slab_variant.h"
 
 const double slab_accuracy_apertures[SLAB_ACCURACY_DISTANCES] = {1, 4, 16};
 
@@ -43,46 +41,20 @@ struct bounds {
 static const struct bounds st_bounds = {2.4, 4}, sharpened_st_bounds = {2.4, 16},
                            uv_bounds = {3.5, 4};
 
-/* ---- 1. Five resolutions ---- */
+/* ---- 1. Copies ---- */
 
-/* The slab, st halved once and twice, uv likewise. */
-enum { FULL, ST_2, ST_4, UV_2, UV_4, LIGHTS };
+/* The light of the slab itself comes after that of its copies. */
+enum { FULL = SLAB_VARIANTS, LIGHTS };
 
-/* The slab with its samples along the axes first and first + 1 divided by 2^times. */
-static enum result halve(const struct slab *means, int first, int times, bool sharpened,
-                         struct patch_light *light, struct error *error) {
-  int samples[SLAB_AXES], halved = 0; /* the most samples along an axis that was halved */
-  memcpy(samples, means->samples, sizeof samples);
-  for (int axis = first; axis < first + 2; ++axis)
-    for (int n = 0; n < times; ++n) {
-      if (samples[axis] > halved) halved = samples[axis];
-      samples[axis] = (samples[axis] + 1) / 2;
-    }
-  if (halved < 4) return RESULT_OK;
-  struct slab fewer = {0};
-  enum result result = slab_resample(means, samples, &fewer, error);
-  if (result == RESULT_OK && sharpened) result = slab_sharpen(&fewer, SLAB_SHARPEN_EXACT, error);
-  if (result == RESULT_OK) result = patch_light_make(&fewer, light, error);
-  slab_free(&fewer);
-  return result;
-}
-
-static enum result make_lights(const struct slab *slab, bool sharpened,
+static enum result make_lights(const struct slab *slab, const struct slab_sampling *sampling,
                                struct patch_light lights[LIGHTS], struct error *error) {
-  struct slab means = *slab;
-  means.rgb = NULL;
   enum result result = patch_light_make(slab, &lights[FULL], error);
-  if (sharpened && result == RESULT_OK) {
-    result = slab_alloc(&means, error);
-    if (result == RESULT_OK) {
-      memcpy(means.rgb, slab->rgb, 3 * sizeof(float) * slab_sample_count(slab));
-      result = slab_unsharpen(&means, error);
-    }
+  for (int k = 0; k < SLAB_VARIANTS && result == RESULT_OK; ++k) {
+    struct slab copy = {0};
+    result = slab_variant_make(slab, sampling, (enum slab_variant)k, &copy, error);
+    if (result == RESULT_OK && copy.rgb) result = patch_light_make(&copy, &lights[k], error);
+    slab_free(&copy);
   }
-  const struct slab *from = sharpened ? &means : slab;
-  for (int k = ST_2; k < LIGHTS && result == RESULT_OK; ++k)
-    result = halve(from, k < UV_2 ? SLAB_S : SLAB_U, k % 2 ? 1 : 2, sharpened, &lights[k], error);
-  free(means.rgb);
   return result;
 }
 
@@ -94,73 +66,65 @@ static double rms(const double *e) {
   return sqrt(sum) / PATCH_SIDE;
 }
 
+double slab_accuracy_ratio(bool st, bool sharpened, double once, double twice) {
+  struct bounds bounds = !st ? uv_bounds : sharpened ? sharpened_st_bounds : st_bounds;
+  return fmin(fmax(once > 0 ? twice / once : bounds.high, bounds.low), bounds.high);
+}
+
 /* Replaces `once`, irradiance by the light halved once, by the error that is left in `full`.
  * Returns its RMS. */
-static double extrapolate(const double *full, double *once, const double *twice,
-                          struct bounds bounds) {
+static double extrapolate(const double *full, double *once, const double *twice, bool st,
+                          bool sharpened) {
   double steps[2] = {0, 0};
   for (int n = 0; n < PATCH_RECEIVERS; ++n) {
     steps[0] += (once[n] - full[n]) * (once[n] - full[n]);
     steps[1] += (twice[n] - once[n]) * (twice[n] - once[n]);
   }
-  double ratio = steps[0] > 0 ? sqrt(steps[1] / steps[0]) : bounds.high;
-  ratio = fmin(fmax(ratio, bounds.low), bounds.high);
+  double ratio = slab_accuracy_ratio(st, sharpened, sqrt(steps[0]), sqrt(steps[1]));
   for (int n = 0; n < PATCH_RECEIVERS; ++n) once[n] = (once[n] - full[n]) / (ratio - 1);
   return rms(once);
 }
 
-/* ---- 5. Noise ---- */
+/* ---- 5. and 6. ---- */
 
-/* RMS of the noise over the receivers, relative to the RMS of irradiance, `level`; the patch has
- * just been lit by `light`, the full one. Samples have noise of their own, which counts as
- * independent, and all of it as lying where the light is. They also share some, since the rays of
- * a pass are at the same places in all cells: the noise of the flux. */
-static enum result find_noise(const struct patch *patch, const struct patch_light *light,
-                              const struct slab_sampling *sampling,
-                              const struct patch_extent *extent, double level, double *noise,
-                              struct error *error) {
-  double squares[2][PATCH_SIDE], sum = 0;
-  *noise = NAN;
-  for (int axis = 0; axis < 2; ++axis) {
-    enum result result = patch_weights(patch, light, axis, squares[axis], error);
-    if (result != RESULT_OK) return result;
-  }
-  for (int y = 0; y < PATCH_SIDE; ++y)
-    for (int x = 0; x < PATCH_SIDE; ++x) {
-      double r = 1 + (patch->at[0][x] * patch->at[0][x] + patch->at[1][y] * patch->at[1][y]) /
-                         (patch->distance * patch->distance);
-      sum += squares[0][x] * squares[1][y] / (r * r * r * r);
-    }
-  if (level > 0)
-    *noise = hypot(sampling->sample_noise * sqrt(sum / extent->share) / (PATCH_SIDE * level),
-                   sampling->flux_noise);
-  return RESULT_OK;
+/* RMS of what two irradiances differ by. */
+static double differ(const double *a, const double *b) {
+  double sum = 0;
+  for (int n = 0; n < PATCH_RECEIVERS; ++n) sum += (a[n] - b[n]) * (a[n] - b[n]);
+  return sqrt(sum) / PATCH_SIDE;
 }
 
-/* ---- All of it ---- */
+/* What is known of three parts, in quadrature. */
+static double add_up(const struct slab_accuracy *accuracy) {
+  double resolution = accuracy->resolution, noise = accuracy->noise;
+  if (isnan(resolution) && isnan(noise)) return NAN;
+  return hypot(hypot(isnan(resolution) ? 0 : resolution, isnan(noise) ? 0 : noise),
+               accuracy->logluv);
+}
 
 /* Steps 2 to 6 at the patch's distance; `e` has room for the irradiance by each light. */
-static enum result find_accuracy(const struct patch *patch, const struct patch_light *lights,
-                                 const struct slab_sampling *sampling,
-                                 const struct patch_extent *extent, double (*e)[PATCH_RECEIVERS],
-                                 struct slab_accuracy *accuracy, struct error *error) {
-  *accuracy = (struct slab_accuracy){.distance = patch->distance, .st = NAN, .uv = NAN};
+static void find_accuracy(const struct patch *patch, const struct patch_light *lights,
+                          bool sharpened, double (*e)[PATCH_RECEIVERS],
+                          struct slab_accuracy *accuracy) {
+  *accuracy = (struct slab_accuracy){
+      .distance = patch->distance, .st = NAN, .uv = NAN, .resolution = NAN, .noise = NAN};
   memset(e, 0, LIGHTS * sizeof *e);
-  for (int k = LIGHTS - 1; k >= FULL; --k) /* FULL last, for the noise */
+  for (int k = 0; k < LIGHTS; ++k)
     if (lights[k].luminance) patch_irradiance(patch, &lights[k], e[k]);
   double level = rms(e[FULL]), scale = level > 0 ? 1 / level : 0;
-  enum result result =
-      find_noise(patch, &lights[FULL], sampling, extent, level, &accuracy->noise, error);
-  if (lights[ST_4].luminance)
-    accuracy->st = scale * extrapolate(e[FULL], e[ST_2], e[ST_4],
-                                       sampling->sharpened ? sharpened_st_bounds : st_bounds);
-  if (lights[UV_4].luminance)
-    accuracy->uv = scale * extrapolate(e[FULL], e[UV_2], e[UV_4], uv_bounds);
-  for (int n = 0; n < PATCH_RECEIVERS; ++n) e[FULL][n] = e[ST_2][n] + e[UV_2][n];
-  bool nothing = isnan(accuracy->st) && isnan(accuracy->uv) && isnan(accuracy->noise);
-  accuracy->all =
-      nothing ? NAN : hypot(scale * rms(e[FULL]), isnan(accuracy->noise) ? 0 : accuracy->noise);
-  return result;
+  if (lights[SLAB_NOISY].luminance) accuracy->noise = scale * differ(e[SLAB_NOISY], e[FULL]);
+  if (lights[SLAB_ROUNDED].luminance) accuracy->logluv = scale * differ(e[SLAB_ROUNDED], e[FULL]);
+  if (lights[SLAB_ST_4].luminance)
+    accuracy->st = scale * extrapolate(e[FULL], e[SLAB_ST_2], e[SLAB_ST_4], true, sharpened);
+  else
+    memset(e[SLAB_ST_2], 0, sizeof *e);
+  if (lights[SLAB_UV_4].luminance)
+    accuracy->uv = scale * extrapolate(e[FULL], e[SLAB_UV_2], e[SLAB_UV_4], false, sharpened);
+  else
+    memset(e[SLAB_UV_2], 0, sizeof *e);
+  for (int n = 0; n < PATCH_RECEIVERS; ++n) e[FULL][n] = e[SLAB_ST_2][n] + e[SLAB_UV_2][n];
+  if (!isnan(accuracy->st) || !isnan(accuracy->uv)) accuracy->resolution = scale * rms(e[FULL]);
+  accuracy->all = add_up(accuracy);
 }
 
 enum result slab_accuracy_estimate(const struct slab *slab, const struct slab_sampling *sampling,
@@ -169,14 +133,12 @@ enum result slab_accuracy_estimate(const struct slab *slab, const struct slab_sa
   struct patch_light lights[LIGHTS] = {0};
   struct patch_extent extent = {0};
   double(*e)[PATCH_RECEIVERS] = malloc(LIGHTS * sizeof *e);
-  enum result result =
-      e ? make_lights(slab, sampling->sharpened, lights, error) : result_no_memory(error);
+  enum result result = e ? make_lights(slab, sampling, lights, error) : result_no_memory(error);
   if (result == RESULT_OK) result = patch_extent_find(slab, &lights[FULL], &extent, error);
   for (int n = 0; n < count && result == RESULT_OK; ++n) {
     struct patch patch;
     result = patch_make(slab, distances[n], &extent, &patch, error);
-    if (result == RESULT_OK)
-      result = find_accuracy(&patch, lights, sampling, &extent, e, &accuracy[n], error);
+    if (result == RESULT_OK) find_accuracy(&patch, lights, sampling->sharpened, e, &accuracy[n]);
     patch_free(&patch);
   }
   for (int k = 0; k < LIGHTS; ++k) free(lights[k].luminance);

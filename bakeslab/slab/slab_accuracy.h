@@ -9,10 +9,13 @@
 /* Relative RMS over a patch that faces the aperture and holds all of the light: the RMS of
  * the error of irradiance (luminance) over the RMS of irradiance. NAN: not known. */
 struct slab_accuracy {
-  double distance; /* from the aperture, along the normal, in lamp units */
-  double st, uv;   /* by resolution; NAN where no axis has 4 samples */
-  double noise;    /* by the noise that the bake recorded; NAN where it did not */
-  double all;      /* together, of what is known; NAN: nothing is */
+  double distance;   /* from the aperture, along the normal, in lamp units */
+  double st, uv;     /* by resolution; NAN where no axis has 4 samples */
+  double resolution; /* st and uv together; they may cancel. NAN where neither is known */
+  double noise;      /* by the noise that the bake recorded; NAN where it did not */
+  double logluv;     /* by rounding to LogLuv; 0 where the file has none */
+  double all;        /* resolution, noise and logluv together, of what is known; NAN: neither of the
+                        first two is */
 };
 
 /* The distances that `bakeslab check --error` states, in apertures: longer edges of the
@@ -25,7 +28,14 @@ struct slab_sampling {
   bool points;                     /* rather than means over their cells */
   bool sharpened;                  /* slab_sharpen.h */
   double sample_noise, flux_noise; /* as the bake recorded them (bake_sum.h); NAN: not known */
+  bool logluv;                     /* they were rounded to LogLuv, with this factor on XYZ: */
+  double white[3];
 };
+
+/* How much an error by resolution grows by a halving, as observed from the steps from the slab to
+ * half its samples and from there to a quarter, within bounds. `st`: along s and t, else u and v.
+ */
+double slab_accuracy_ratio(bool st, bool sharpened, double once, double twice);
 
 /* Fills accuracy[count] for the given distances, in lamp units. A slab without light, or
  * whose light goes by all of a patch, has the error 0. */

@@ -70,7 +70,7 @@ static double try_file(const char *path, struct picture *small, double pixels, i
 double picture_files_seconds(const struct picture_files *files, int width, int height, int step) {
   enum { WIDTH = 256, HEIGHT = 32, VALUES = 3 * WIDTH * HEIGHT };
   float *values = malloc(2 * VALUES * sizeof *values);
-  struct picture small = {WIDTH, HEIGHT, values, values ? values + VALUES : NULL};
+  struct picture small = {WIDTH, HEIGHT, values, values ? values + VALUES : NULL, NULL};
   double pixels = (double)width * height, seconds = 0;
   if (values) seconds = try_file(files->output, &small, pixels, step);
   if (values && files->preview) seconds += try_file(files->preview, &small, pixels, step);

@@ -40,6 +40,18 @@ void stats_effect(struct stats *stats, const char *name, bool simulated, const c
                       json_pack("{s:b, s:s}", "simulated", simulated, "reason", reason));
 }
 
+static json_t *number(double x) {
+  return isfinite(x) ? json_real(x) : json_null();
+}
+
+void stats_error(struct stats *stats, const struct image_error *told) {
+  json_decref(stats->error);
+  stats->error =
+      json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "noise", number(told->noise), "resolution",
+                number(told->resolution), "logluv", number(told->logluv), "sum", number(told->sum),
+                "shadows", number(told->shadows), "all", number(told->all));
+}
+
 static json_t *object_of(const struct stats *stats, const struct options *options) {
   const struct gather_counts *counts = &stats->counts;
   json_t *object = json_object();
@@ -56,8 +68,8 @@ static json_t *object_of(const struct stats *stats, const struct options *option
   json_object_set_new(object, "open_views", json_integer((json_int_t)counts->open_views));
   json_object_set_new(object, "pages_behind", json_integer((json_int_t)counts->pages_behind));
   json_object_set(object, "effects", stats->effects);
-  json_object_set_new(object, "error_estimate",
-                      isfinite(counts->error) ? json_real(counts->error) : json_null());
+  if (stats->error) json_object_set(object, "error", stats->error);
+  json_object_set_new(object, "error_estimate", number(counts->error));
   return object;
 }
 
@@ -70,10 +82,10 @@ static enum result add_accuracy(json_t *list, const struct light *light, int pag
   enum result result = slab_json_sampling(slab, &sampling, error);
   if (result == RESULT_OK) result = slab_accuracy_table(slab, &sampling, accuracy, error);
   for (int k = 0; k < SLAB_ACCURACY_DISTANCES && result == RESULT_OK; ++k) {
-    json_t *about = isfinite(accuracy[k].all) ? json_real(accuracy[k].all) : json_null();
-    json_array_append_new(list, json_pack("{s:o, s:i, s:f, s:o}", "light",
-                                          json_any_string(light->path), "page", page + 1,
-                                          "apertures", slab_accuracy_apertures[k], "about", about));
+    json_array_append_new(list,
+                          json_pack("{s:o, s:i, s:f, s:o}", "light", json_any_string(light->path),
+                                    "page", page + 1, "apertures", slab_accuracy_apertures[k],
+                                    "about", number(accuracy[k].all)));
   }
   return result;
 }
@@ -111,5 +123,6 @@ enum result stats_end(struct stats *stats, const struct world *world, enum resul
   if (result == RESULT_OK && world->options.stats) result = write(stats, world, error);
   json_decref(stats->seconds);
   json_decref(stats->effects);
+  json_decref(stats->error);
   return result;
 }
