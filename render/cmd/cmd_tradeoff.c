@@ -7,6 +7,7 @@
 #include "cli/cli.h"
 #include "cli/values.h"
 #include "cmd/commands.h"
+#include "cmd/ways_options.h"
 #include "cmd/world.h"
 #include "shadow/occlusion.h"
 #include "tradeoff/plot.h"
@@ -20,6 +21,8 @@ struct arguments {
   int levels; /* -1: all */
   int repeats, threads;
   bool no_shadows;
+  bool table; /* an option of the table of methods was given */
+  struct ways_options ways;
 };
 
 enum {
@@ -29,13 +32,36 @@ enum {
   OPTION_LEVELS,
   OPTION_REPEATS,
   OPTION_THREADS,
-  OPTION_NO_SHADOWS
+  OPTION_NO_SHADOWS,
+  OPTION_ERRORS,
+  OPTION_PICTURES,
+  OPTION_LIMIT,
+  OPTION_BAKES,
+  OPTION_ALL
 };
 
 static const struct argp_option options_list[] = {
     {"output", 'o', "OUT.tsv", 0, "The table to write; - is standard output", 0},
     {"plot", OPTION_PLOT, "OUT.svg", 0,
-     "Plot error against time, a line for each method, by gnuplot; .svg or .png", 0},
+     "Plot error against time, a line for each way or method, by gnuplot; .svg or .png", 0},
+    {0, 0, 0, 0, "From the lamp to the picture:", 1},
+    {"errors", OPTION_ERRORS, "E,E,...", 0,
+     "The errors to reach (default 0.1,0.05,0.02,0.01); with a slab, asks for ways rather than "
+     "methods",
+     1},
+    {"pictures", OPTION_PICTURES, "N", 0,
+     "How many pictures the bake is to pay for (default 1): the cheapest way is the one for so "
+     "many",
+     1},
+    {"time-limit", OPTION_LIMIT, "S", 0,
+     "Advise no way that takes more than S CPU seconds from the script to the first picture", 1},
+    {"bakes", OPTION_BAKES, "FOLDER", 0,
+     "Keep the slabs there, with their seconds, and bake only what is missing or older than the "
+     "script; files that the script includes are not looked at",
+     1},
+    {"all", OPTION_ALL, NULL, 0,
+     "Try all ways, not only the likely ones: the table and the plot then hold no predictions", 1},
+    {0, 0, 0, 0, "Methods of the sum over a slab:", 2},
     {"methods", OPTION_METHODS, "M,M,...", 0,
      "Measure these only (default: all that can do the scene)", 0},
     {"finest", OPTION_FINEST, "T", 0, "The last of the tolerances 0.1, 0.03, ... (default 1e-4)",
@@ -58,6 +84,11 @@ static const struct value values[] = {
     {OPTION_REPEATS, VALUE_WHOLE, ARGUMENT(repeats), 1, TRADEOFF_MOST_REPEATS},
     {OPTION_THREADS, VALUE_WHOLE, ARGUMENT(threads), 1, OPTIONS_MOST_THREADS},
     {OPTION_NO_SHADOWS, VALUE_FLAG, ARGUMENT(no_shadows), 0, 0},
+    {OPTION_ERRORS, VALUE_TEXT, ARGUMENT(ways.errors), 0, 0},
+    {OPTION_PICTURES, VALUE_WHOLE, ARGUMENT(ways.pictures), 1, 1000000},
+    {OPTION_LIMIT, VALUE_POSITIVE, ARGUMENT(ways.time_limit), 0, 0},
+    {OPTION_ALL, VALUE_FLAG, ARGUMENT(ways.all), 0, 0},
+    {OPTION_BAKES, VALUE_TEXT, ARGUMENT(ways.bakes), 0, 0},
     {0}};
 
 static void parse_methods(const char *text, struct arguments *arguments, struct argp_state *state) {
@@ -73,8 +104,21 @@ static void parse_methods(const char *text, struct arguments *arguments, struct 
   free(names);
 }
 
+/* The two tables take different options. */
+static void check(struct arguments *arguments, struct argp_state *state) {
+  const struct options *lights = &arguments->world.options;
+  ways_options_check(&arguments->ways, lights, state);
+  if (!ways_options_ask(&arguments->ways, lights)) {
+    if (!arguments->output) argp_error(state, "no output given; add -o OUT.tsv");
+  } else if (arguments->table) {
+    argp_error(state, "--methods, --finest, --levels, --repeats, --threads and --no-shadows: for a "
+                      "slab without --errors only");
+  }
+}
+
 static error_t parse(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
+  if (key >= OPTION_METHODS && key <= OPTION_NO_SHADOWS) arguments->table = true;
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = &arguments->world.options;
@@ -86,7 +130,7 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     parse_methods(value, arguments, state);
     return 0;
   case ARGP_KEY_SUCCESS:
-    if (!arguments->output) argp_error(state, "no output given; add -o OUT.tsv");
+    check(arguments, state);
     return 0;
   default:
     return values_take(values, options_list, key, value, arguments, state);
@@ -159,8 +203,7 @@ static enum result write_files(const struct arguments *arguments,
   return result;
 }
 
-static enum result run(void *input, struct error *error) {
-  struct arguments *arguments = input;
+static enum result run_methods(struct arguments *arguments, struct error *error) {
   struct tradeoff tradeoff = {0};
   struct progress progress;
   enum result result = load(arguments, error);
@@ -176,18 +219,39 @@ static enum result run(void *input, struct error *error) {
                  tradeoff.refusal[k]);
   }
   tradeoff_free(&tradeoff);
-  world_free(&arguments->world);
+  return result;
+}
+
+static enum result run(void *input, struct error *error) {
+  struct arguments *arguments = input;
+  struct world *world = &arguments->world;
+  enum result result =
+      ways_options_ask(&arguments->ways, &world->options)
+          ? ways_options_run(world, &arguments->ways, arguments->output, arguments->plot, error)
+          : run_methods(arguments, error);
+  world_free(world);
   return result;
 }
 
 static const char help_text[] =
-    "Shows what accuracy costs in time: gathers the light of a picture by every method at a "
-    "ladder of settings, each several times, and writes a table of time, error against the "
+    "Shows what accuracy costs. With a lamp script, `--light LAMP.pov ...': for a ladder of errors "
+    "the cheapest way from the lamp to the picture of the scene: which bake, which include or "
+    "tolerance of renderslab, and the CPU seconds of each step. It bakes the lamp up to ten times, "
+    "from coarse to fine, which takes from a minute to an hour; what it advises it has tried. "
+    "With a slab and --errors: the same from the slab on.\n"
+    "With a slab alone it gathers the light of a picture by every method at a ladder of settings, "
+    "each several times, and writes a table of time, error against the "
     "reference, micro lights, nodes, shadow rays and memory. Unless --size is given the picture "
     "is 160x120: times are proportional to its pixels, errors stay."
-    "\vExamples, for room.obj of share/canned/include-pov:\n"
+    "\vThe errors of ways are the RMS of the difference over the mean of the pixels that show a "
+    "surface, against renderslab's reference from the finest slab, which tells its own error. "
+    "Light that surfaces of the scene reflect onto each other is in none of the pictures.\n"
+    "\n"
+    "Examples, for room.obj of share/canned/include-pov:\n"
+    "  renderslab tradeoff room.obj --light 'lamp.pov at=0,190,20' \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' --plot room.svg\n"
     "  renderslab tradeoff room.obj --light 'lamp.tif at=0,190,20' \\\n"
-    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o room.tsv --plot room.svg\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' --errors 0.1,0.05\n"
     "  renderslab tradeoff room.obj --light 'lamp.tif at=0,190,20' \\\n"
     "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o - \\\n"
     "    --methods auto,reference --finest 1e-3";

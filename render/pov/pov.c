@@ -44,8 +44,17 @@ static void print_header(const char *path, const struct shade *view, const char 
   fputs(" }\n\n", out);
 }
 
-/* Sides of the image plane at distance 1: rays pass the middles of pixels, as ours do. */
-static void print_camera(const struct shade *view, FILE *out) {
+/* POV-Ray's matrix: the images of x, y and z, and the translation. */
+static void print_matrix(const double matrix[4][3], FILE *out) {
+  fputs("matrix <", out);
+  for (int row = 0; row < 4; ++row)
+    for (int c = 0; c < 3; ++c)
+      fprintf(out, "%.15g%s", matrix[row][c], row == 3 && c == 2 ? ">" : ", ");
+}
+
+/* Sides of the image plane at distance 1: rays pass the middles of pixels, as ours do. Where the
+ * scene is moved (NULL: it is not), the camera is too. */
+static void print_camera(const struct shade *view, const double move[4][3], FILE *out) {
   double forward[3], right[3], up[3];
   camera_axes(&view->camera, forward, right, up);
   double width = 2 * tan(view->camera.fov * M_PI / 360);
@@ -59,6 +68,10 @@ static void print_camera(const struct shade *view, FILE *out) {
   print_vector("\n  direction ", forward, out);
   print_vector("\n  right ", right, out);
   print_vector("\n  up ", up, out);
+  if (move) {
+    fputs("\n  ", out);
+    print_matrix(move, out);
+  }
   fputs("\n}\n\n", out);
 }
 
@@ -171,21 +184,26 @@ static void print_list(const char *name, size_t count, int size, const double *n
   fputs("  }\n", out);
 }
 
-static void print_mesh(const struct scene *scene, char note[256], FILE *out) {
+/* `textures` NULL: as the scene says; otherwise all of the mesh has this one. */
+static void print_mesh(const struct scene *scene, const char *textures, const char *modifiers,
+                       char note[256], FILE *out) {
   bool textured = false;
   for (int k = 0; k < scene->material_count; ++k) textured |= scene->materials[k].texture >= 0;
   fputs("mesh2 {\n", out);
   print_list("vertex_vectors", scene->vertices, 3, scene->position[0], out);
   print_list("normal_vectors", scene->vertices, 3, scene->normal[0], out);
-  if (textured) print_list("uv_vectors", scene->vertices, 2, scene->uv[0], out);
-  print_textures(scene, note, out);
+  if (textured && !textures) print_list("uv_vectors", scene->vertices, 2, scene->uv[0], out);
+  if (!textures) print_textures(scene, note, out);
   fprintf(out, "  face_indices { %zu,\n", scene->triangles);
   for (size_t k = 0; k < scene->triangles; ++k) {
     const int *corner = scene->corners[k];
-    fprintf(out, "    <%d, %d, %d>, %d%s\n", corner[0], corner[1], corner[2], scene->material[k],
-            k + 1 < scene->triangles ? "," : "");
+    fprintf(out, "    <%d, %d, %d>", corner[0], corner[1], corner[2]);
+    if (!textures) fprintf(out, ", %d", scene->material[k]);
+    fputs(k + 1 < scene->triangles ? ",\n" : "\n", out);
   }
-  fputs("  }\n}\n\n", out);
+  fputs("  }\n", out);
+  if (textures) fprintf(out, "  %s\n", textures);
+  fprintf(out, "%s}\n\n", modifiers);
 }
 
 static void print_includes(const struct pov_includes *includes, FILE *out) {
@@ -209,11 +227,12 @@ static void print_light(const struct light *light, const char *name, FILE *out) 
     fprintf(out, "%.15g", gain[0]);
   else
     fprintf(out, "rgb <%.15g, %.15g, %.15g>", gain[0], gain[1], gain[2]);
-  fputs(")\n  matrix <", out);
+  double unscaled[4][3];
   for (int row = 0; row < 4; ++row)
-    for (int c = 0; c < 3; ++c)
-      fprintf(out, "%.15g%s", light->matrix[row][c] / (row < 3 ? scale : 1),
-              row == 3 && c == 2 ? "> }\n" : ", ");
+    for (int c = 0; c < 3; ++c) unscaled[row][c] = light->matrix[row][c] / (row < 3 ? scale : 1);
+  fputs(")\n  ", out);
+  print_matrix(unscaled, out);
+  fputs(" }\n", out);
 }
 
 static void print_scene(const char *path, const struct shade *view,
@@ -221,11 +240,83 @@ static void print_scene(const char *path, const struct shade *view,
                         FILE *out) {
   print_header(path, view, command, out);
   print_includes(includes, out);
-  print_camera(view, out);
+  print_camera(view, NULL, out);
   for (int k = 0; k < view->light_count; ++k)
     print_light(&view->lights[k], includes->list[includes->of_light[k]].name, out);
   putc('\n', out);
-  print_mesh(view->scene, note, out);
+  print_mesh(view->scene, NULL, "", note, out);
+}
+
+/* ---- The lamp itself ---- */
+
+/* From the scene's space to the lamp's: matrix is a similarity. */
+static void invert(const double matrix[4][3], double inverse[4][3]) {
+  double square = vector_dot(matrix[0], matrix[0]);
+  for (int row = 0; row < 3; ++row)
+    for (int c = 0; c < 3; ++c) inverse[row][c] = matrix[c][row] / square;
+  for (int c = 0; c < 3; ++c) inverse[3][c] = -vector_dot(matrix[3], matrix[c]) / square;
+}
+
+/* The mesh, moved to the lamp. Rays that gather light for radiosity must meet it, since it throws
+ * shadows, but must bring no light from it: they see a black copy, which pictures do not show. */
+static void print_moved_mesh(const struct shade *view, const struct pov_lamp *lamp, FILE *out) {
+  double move[4][3];
+  char note[256] = "";
+  invert(lamp->light->matrix, move);
+  fputs("union {\n", out);
+  if (lamp->mark)
+    print_mesh(view->scene, "pigment { rgb 1 } finish { ambient 0 diffuse 0 emission 1e4 }", "",
+               note, out);
+  else
+    print_mesh(view->scene, NULL, lamp->gather ? "  no_radiosity\n" : "", note, out);
+  if (lamp->gather && !lamp->mark)
+    print_mesh(view->scene, "pigment { rgb 0 } finish { ambient 0 diffuse 0 }", "  no_image\n",
+               note, out);
+  fputs("  ", out);
+  print_matrix(move, out);
+  fputs("\n}\n\n", out);
+  print_camera(view, move, out);
+}
+
+static void print_lamp(const struct shade *view, const struct pov_lamp *lamp, FILE *out) {
+  fputs("#version 3.7;\n#declare Canned_Baking = 1;\n", out);
+  fprintf(out, "#declare Canned_Bake_Effects = \"%s\";\n",
+          lamp->photons ? "caustics extended_source" : "extended_source");
+  if (lamp->photons) fprintf(out, "#declare Canned_Bake_Photons = %d;\n", lamp->photons);
+  fputs("#include ", out);
+  sdl_string(lamp->script, out);
+  fputs("\n", out);
+  if (lamp->gather && !lamp->mark)
+    fprintf(out,
+            "global_settings {\n"
+            "  radiosity { pretrace_start 0.08 pretrace_end 0.01 count %d, %d error_bound 0.2\n"
+            "    nearest_count 10 recursion_limit 3 low_error_factor 0.7 minimum_reuse 0.01\n"
+            "    gray_threshold 0 brightness 1 }\n}\n",
+            lamp->gather, 10 * lamp->gather);
+  print_vector("background { rgb ", view->background, out);
+  fputs(" }\n\n", out);
+  print_moved_mesh(view, lamp, out);
+}
+
+/* ---- Files ---- */
+
+static enum result finish(const char *path, FILE *out, char **text, size_t *length,
+                          struct error *error) {
+  enum result result =
+      !out || fclose(out) != 0 || !*text /* glibc's fclose may lose the text without a word */
+          ? result_no_memory(error)
+          : output_text(path, *text, *length, error);
+  free(*text);
+  return result;
+}
+
+enum result pov_write_lamp(const char *path, const struct shade *view, const struct pov_lamp *lamp,
+                           struct error *error) {
+  char *text = NULL;
+  size_t length = 0;
+  FILE *out = open_memstream(&text, &length);
+  if (out) print_lamp(view, lamp, out);
+  return finish(path, out, &text, &length, error);
 }
 
 enum result pov_write(const char *path, const struct shade *view,
@@ -236,10 +327,5 @@ enum result pov_write(const char *path, const struct shade *view,
   FILE *out = open_memstream(&text, &length);
   note[0] = 0;
   if (out) print_scene(path, view, includes, command, note, out);
-  enum result result =
-      !out || fclose(out) != 0 || !text /* glibc's fclose may lose the text without a word */
-          ? result_no_memory(error)
-          : output_text(path, text, length, error);
-  free(text);
-  return result;
+  return finish(path, out, &text, &length, error);
 }

@@ -17,4 +17,19 @@ enum result pov_write(const char *path, const struct shade *view,
                       const struct pov_includes *includes, const char *command, char note[256],
                       struct error *error);
 
+/* A lamp's script, to light the scene as it is, and what is spent on its light. */
+struct pov_lamp {
+  const char *script;
+  const struct light *light; /* where it is; its gain is left to whoever reads the picture */
+  int gather;                /* rays of radiosity that gather at a point; 0: none */
+  int photons;               /* 0: none */
+  bool mark; /* no light: the mesh glows at 1e4, which shows where the lamp itself hides it */
+};
+
+/* Writes a scene in the lamp's space, to which mesh and camera are moved: POV-Ray's lights cannot
+ * be scaled. It shows the lamp's light alone, without what surfaces of the mesh reflect onto each
+ * other. */
+enum result pov_write_lamp(const char *path, const struct shade *view, const struct pov_lamp *lamp,
+                           struct error *error);
+
 #endif

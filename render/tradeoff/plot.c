@@ -79,3 +79,12 @@ enum result plot_write(const char *path, const char *script, struct error *error
   fclose(in);
   return result;
 }
+
+void plot_quote(FILE *file, const char *text) {
+  fputc('\'', file);
+  for (; *text; ++text) {
+    if (*text == '\'') fputc('\'', file);
+    fputc((unsigned char)*text < ' ' ? ' ' : *text, file);
+  }
+  fputc('\'', file);
+}

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <sys/resource.h>
 
+#include "tradeoff/plot.h"
 #include "tradeoff/tradeoff.h"
 
 /* ---- The table ---- */
@@ -125,16 +126,6 @@ enum { SHADOWS = GATHER_METHODS, LINES };
 /* Errors below that are drawn as that: on a logarithmic axis zero has no place. */
 static const double exact = 1e-8;
 
-/* A text in single quotes, as gnuplot reads it. */
-static void print_quoted(FILE *file, const char *text) {
-  fputc('\'', file);
-  for (; *text; ++text) {
-    if (*text == '\'') fputc('\'', file);
-    fputc((unsigned char)*text < ' ' ? ' ' : *text, file);
-  }
-  fputc('\'', file);
-}
-
 /* A line in the order of its settings; levels by solid angle are a point apart. Returns
  * whether there is any. */
 static bool print_points(FILE *file, const struct tradeoff *tradeoff, int line) {
@@ -164,7 +155,7 @@ void tradeoff_plot(FILE *file, const struct tradeoff *tradeoff,
         "set ylabel 'relative error of the picture (RMS; 10^{-8}: that or less)'\n"
         "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset title ",
         file);
-  print_quoted(file, about->mesh);
+  plot_quote(file, about->mesh);
   fputs(" noenhanced\nplot ", file);
   const char *between = "";
   for (int k = 0; k < LINES; ++k) {

@@ -1,0 +1,135 @@
+/* ways_choose.c - the cheapest way to each error, tried before it is advised.
+ *
+ * For each rung, in POV-Ray and in renderslab:
+ * 1. Leave out the ways whose predicted error is more than `doubt` times the rung: predictions
+ *    are somewhat off, both ways.
+ * 2. Try the others from the cheapest on, until one reaches the rung.
+ * 3. Where the first `most_tries` do not, advise the one that came closest. */
+#include <math.h>
+
+#include "tradeoff/ways.h"
+
+static const double doubt = 1.2;
+enum { most_tries = 6 };
+
+double ways_first(const struct ways *ways, int bake, int picture) {
+  const struct ways_made *made = &ways->made[bake][picture];
+  return ways->bakes[bake].cpu + made->include_cpu + made->cpu;
+}
+
+double ways_cost(const struct ways_settings *settings, const struct ways *ways, int bake,
+                 int picture) {
+  return ways_first(ways, bake, picture) + (settings->pictures - 1) * ways->made[bake][picture].cpu;
+}
+
+/* What is left to try for a rung: the cheapest with at least so much cost, and after those of the
+ * same cost that come before. */
+struct search {
+  double error;
+  bool povray;
+  bool seen[WAYS_MOST_BAKES][WAYS_PICTURES];
+};
+
+static bool next(const struct ways_settings *settings, struct ways *ways, struct search *search,
+                 struct ways_advice *advice, int *bake, int *picture) {
+  double least = INFINITY;
+  for (int b = 0; b < ways->bake_count; ++b)
+    for (int p = 0; p < WAYS_PICTURES; ++p) {
+      const struct ways_made *made = &ways->made[b][p];
+      double cost = ways_cost(settings, ways, b, p), first = ways_first(ways, b, p);
+      double likely = made->tried ? made->measured : made->predicted / doubt;
+      if (search->seen[b][p] || made->refused || ways_in_povray(p) != search->povray ||
+          likely > search->error)
+        continue;
+      if (settings->time_limit > 0 && first > settings->time_limit) {
+        if (advice->cheapest == 0 || first < advice->cheapest) advice->cheapest = first;
+        continue;
+      }
+      if (cost >= least) continue;
+      least = cost;
+      *bake = b;
+      *picture = p;
+    }
+  return isfinite(least);
+}
+
+static enum result choose_one(const struct ways_settings *settings, struct ways *ways,
+                              struct search *search, struct ways_advice *advice,
+                              struct error *error) {
+  double closest = INFINITY;
+  int bake = 0, picture = 0;
+  enum result result = RESULT_OK;
+  while (advice->tried < most_tries && next(settings, ways, search, advice, &bake, &picture)) {
+    result = ways_try(settings, ways, bake, picture, error);
+    if (result != RESULT_OK) return result;
+    const struct ways_made *made = &ways->made[bake][picture];
+    search->seen[bake][picture] = true;
+    ++advice->tried;
+    if (made->refused || made->measured >= closest) continue;
+    closest = made->measured;
+    advice->found = true;
+    advice->bake = bake;
+    advice->picture = picture;
+    advice->missed = made->measured > search->error;
+    if (!advice->missed) break;
+  }
+  return RESULT_OK;
+}
+
+/* More than this share of the error left by four times the rays is no noise. */
+static const double noise_share = 0.75;
+
+/* Seconds of the whole lamp's picture at that error: measured, or else reckoned: its noise falls
+ * with the root of the rays, for each of which it takes as long as between the last two
+ * pictures. */
+static void whole_lamp(const struct ways *ways, double error, struct ways_advice *advice) {
+  int count = ways->lamp_count;
+  for (int k = count - 1; k >= 0; --k)
+    if (ways->lamp[k].error <= error) advice->whole = ways->lamp[k].cpu;
+  if (advice->whole > 0 || count < 2) return;
+  const struct ways_lamp *last = &ways->lamp[count - 1], *before = last - 1;
+  if (last->error > noise_share * before->error) return;
+  double ray = (last->cpu - before->cpu) / (last->rays - before->rays);
+  double fewer = last->error / error;
+  advice->whole = last->cpu + ray * last->rays * (fewer * fewer - 1);
+  advice->reckoned = true;
+}
+
+/* bake + include + n pictures < n pictures of the whole lamp. */
+static void break_even(const struct ways *ways, double error, struct ways_advice *advice) {
+  if (!advice->found) return;
+  const struct ways_made *made = &ways->made[advice->bake][advice->picture];
+  double once = ways->bakes[advice->bake].cpu + made->include_cpu;
+  whole_lamp(ways, error, advice);
+  if (advice->whole > made->cpu) {
+    double pictures = floor(once / (advice->whole - made->cpu)) + 1;
+    advice->pays_from = pictures < 1e6 ? (int)pictures : 0;
+  }
+}
+
+/* What the advice did not need. */
+static enum result try_rest(const struct ways_settings *settings, struct ways *ways,
+                            struct error *error) {
+  for (int b = 0; b < ways->bake_count; ++b)
+    for (int p = 0; p < WAYS_PICTURES; ++p) {
+      if (ways->made[b][p].refused) continue;
+      enum result result = ways_try(settings, ways, b, p, error);
+      if (result != RESULT_OK) return result;
+    }
+  return RESULT_OK;
+}
+
+enum result ways_choose(const struct ways_settings *settings, struct ways *ways,
+                        struct error *error) {
+  double floor_error = ways->bakes[ways->bake_count - 1].error;
+  for (int rung = 0; rung < settings->error_count; ++rung)
+    for (int renderer = 0; renderer < 2; ++renderer) {
+      struct search search = {.error = settings->errors[rung], .povray = renderer == 0};
+      struct ways_advice *advice = &ways->advice[rung][renderer];
+      if (search.error < floor_error) continue;
+      enum result result = choose_one(settings, ways, &search, advice, error);
+      if (result != RESULT_OK) return result;
+      break_even(ways, search.error, advice);
+    }
+  return settings->all ? try_rest(settings, ways, error) : RESULT_OK;
+}
