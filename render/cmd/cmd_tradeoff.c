@@ -60,7 +60,7 @@ static const struct argp_option options_list[] = {
      "script; files that the script includes are not looked at",
      1},
     {"all", OPTION_ALL, NULL, 0,
-     "Try all ways, not only the likely ones: the table and the plot then hold no predictions", 1},
+     "Try every way that is cheaper than the one advised too, and tell whether any would do", 1},
     {0, 0, 0, 0, "Methods of the sum over a slab:", 2},
     {"methods", OPTION_METHODS, "M,M,...", 0,
      "Measure these only (default: all that can do the scene)", 0},
@@ -251,7 +251,7 @@ static const char help_text[] =
     "  renderslab tradeoff room.obj --light 'lamp.pov at=0,190,20' \\\n"
     "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' --plot room.svg\n"
     "  renderslab tradeoff room.obj --light 'lamp.tif at=0,190,20' \\\n"
-    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' --errors 0.1,0.05\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' --errors 0.2,0.1\n"
     "  renderslab tradeoff room.obj --light 'lamp.tif at=0,190,20' \\\n"
     "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o - \\\n"
     "    --methods auto,reference --finest 1e-3";

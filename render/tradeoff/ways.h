@@ -26,7 +26,7 @@
 
 enum {
   WAYS_MOST_BAKES = 12,
-  WAYS_PICTURES = 10, /* rows of ways_pictures */
+  WAYS_PICTURES = 9, /* rows of ways_pictures */
   WAYS_MOST_RUNGS = 16,
   WAYS_WHOLE = 5, /* pictures of the whole lamp */
   WAYS_NAME = 64
@@ -45,7 +45,7 @@ struct ways_settings {
   int error_count;                /* >= 1 */
   int pictures;                   /* that a bake is to pay for; >= 1 */
   double time_limit;              /* CPU seconds to the first picture; 0: none */
-  bool all;                       /* try all ways, not only the likely ones */
+  bool all; /* then try every cheaper way too, however unlikely, and tell of those that would do */
   void (*progress)(void *context, double done, const char *label); /* may be NULL */
   void *progress_context;
   const volatile sig_atomic_t *stop; /* ends the work; may be NULL */
@@ -98,6 +98,8 @@ struct ways_advice {
   int tried;       /* how many ways were */
   bool missed;     /* none that was tried reached it: this one came closest */
   double cheapest; /* seconds of the cheapest that would, beyond --time-limit; 0: none would */
+  int cheaper;     /* with `all`: how many cheaper ways were tried, */
+  double best;     /* and seconds of the cheapest way that reaches the rung: ways_cost */
   int pays_from;   /* with this many pictures it is cheaper than the whole lamp; 0: not known */
   double whole;    /* seconds of the whole lamp's picture at that error; 0: not known */
   bool reckoned;   /* that, from how its noise falls */

@@ -107,14 +107,23 @@ static void break_even(const struct ways *ways, double error, struct ways_advice
   }
 }
 
-/* What the advice did not need. */
-static enum result try_rest(const struct ways_settings *settings, struct ways *ways,
-                            struct error *error) {
+/* Tries what costs less than the advice: was it right to leave that out? */
+static enum result try_cheaper(const struct ways_settings *settings, struct ways *ways,
+                               const struct search *search, struct ways_advice *advice,
+                               struct error *error) {
+  double cost = ways_cost(settings, ways, advice->bake, advice->picture);
+  advice->best = cost;
   for (int b = 0; b < ways->bake_count; ++b)
     for (int p = 0; p < WAYS_PICTURES; ++p) {
-      if (ways->made[b][p].refused) continue;
+      struct ways_made *made = &ways->made[b][p];
+      if (made->refused || ways_in_povray(p) != search->povray ||
+          ways_cost(settings, ways, b, p) >= cost)
+        continue;
       enum result result = ways_try(settings, ways, b, p, error);
       if (result != RESULT_OK) return result;
+      ++advice->cheaper;
+      if (!made->refused && made->measured <= search->error)
+        advice->best = fmin(advice->best, ways_cost(settings, ways, b, p));
     }
   return RESULT_OK;
 }
@@ -128,8 +137,10 @@ enum result ways_choose(const struct ways_settings *settings, struct ways *ways,
       struct ways_advice *advice = &ways->advice[rung][renderer];
       if (search.error < floor_error) continue;
       enum result result = choose_one(settings, ways, &search, advice, error);
+      if (result == RESULT_OK && settings->all && advice->found && !advice->missed)
+        result = try_cheaper(settings, ways, &search, advice, error);
       if (result != RESULT_OK) return result;
       break_even(ways, search.error, advice);
     }
-  return settings->all ? try_rest(settings, ways, error) : RESULT_OK;
+  return RESULT_OK;
 }

@@ -1,7 +1,7 @@
 /* ways_lamp.c - the lamp itself in the scene, by POV-Ray: what a slab is to save. Lamps whose bake
  * traced caustics are lit by photons, others by radiosity, as the bake's notes say. Each step
  * spends four times as much, so that its noise halves; they end where one has reached the least
- * error of the ladder, or has taken more than all bakes together. */
+ * error of the ladder, has taken more than all bakes together, or gained nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +13,7 @@
 
 static const int first_rays = 100, first_photons = 100000;
 static const double least_seconds = 20; /* that it may take, however short the bakes */
+static const double no_gain = 0.98;     /* of the error before */
 
 /* Is the effect on, in what the bake recorded? */
 static bool effect_on(json_t *root, const char *name) {
@@ -78,7 +79,7 @@ static enum result climb(const struct ways_settings *settings, struct ways *ways
     picture_free(&picture);
     ways->lamp_count = k + 1;
     spent = made->cpu;
-    if (made->error <= enough) break;
+    if (made->error <= enough || (k > 0 && made->error > no_gain * made[-1].error)) break;
     lamp->gather *= 4;
     lamp->photons *= 4;
   }

@@ -27,10 +27,11 @@ static void say_whole(FILE *file, const struct ways *ways, const struct ways_adv
   else if (advice->whole > 0)
     fprintf(file, "; the whole lamp is cheaper: %s%.2g s", about, advice->whole);
   else if (best)
-    fprintf(file, "; the whole lamp still errs by %.2g %% in %.3g s", 100 * best->error, best->cpu);
+    fprintf(file, "; the whole lamp still errs by %.3g %% in %.3g s", 100 * best->error, best->cpu);
 }
 
-static void say_way(FILE *file, const struct ways *ways, const struct ways_advice *advice) {
+static void say_way(FILE *file, const struct ways_settings *settings, const struct ways *ways,
+                    const struct ways_advice *advice) {
   const struct ways_bake *bake = &ways->bakes[advice->bake];
   const struct ways_made *made = &ways->made[advice->bake][advice->picture];
   char name[WAYS_NAME];
@@ -41,6 +42,12 @@ static void say_way(FILE *file, const struct ways *ways, const struct ways_advic
   fprintf(file, ", %.2g s a picture; the first after %.3g s, %s %.2g %% off", made->cpu,
           ways_first(ways, advice->bake, advice->picture),
           advice->missed ? "the closest that was tried:" : "tried:", 100 * made->measured);
+  double cost = ways_cost(settings, ways, advice->bake, advice->picture);
+  if (advice->best > 0 && advice->best < cost)
+    fprintf(file, "; one of %d cheaper ways would do, for %.3g of the seconds", advice->cheaper,
+            advice->best / cost);
+  else if (advice->best > 0)
+    fprintf(file, "; none of %d cheaper ways would do", advice->cheaper);
 }
 
 static void say_rung(FILE *file, const char *before, const struct ways_settings *settings,
@@ -60,7 +67,7 @@ static void say_rung(FILE *file, const char *before, const struct ways_settings 
     const struct ways_advice *advice = &ways->advice[rung][renderer];
     fprintf(file, "%sfor %g %% here, in %s: ", before, 100 * error, renderers[renderer]);
     if (advice->found) {
-      say_way(file, ways, advice);
+      say_way(file, settings, ways, advice);
       say_whole(file, ways, advice);
     } else if (advice->cheapest > 0) {
       fprintf(file, "nothing within %g s; the cheapest way takes %.3g s", settings->time_limit,
