@@ -176,6 +176,9 @@ void ways_would_reach(const struct ways *ways, double error, char text[WAYS_NAME
   if (bake->rays > 0 && noise > 1)
     snprintf(text + length, WAYS_NAME - (size_t)length, " --rays %.0f",
              2 * ceil(bake->rays * noise * noise / 2));
+  else if (noise > 1)
+    snprintf(text + length, WAYS_NAME - (size_t)length, " and %.0f times the rays",
+             ceil(noise * noise));
 }
 
 /* ---- Pictures by reference ---- */

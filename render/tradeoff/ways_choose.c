@@ -2,14 +2,15 @@
  *
  * For each rung, in POV-Ray and in renderslab:
  * 1. Leave out the ways whose predicted error is more than `doubt` times the rung: predictions
- *    are somewhat off, both ways.
+ *    are somewhat off, both ways. Where another way from the same slab has been tried, what that
+ *    erred by over its prediction is taken into the prediction, and the doubt is less.
  * 2. Try the others from the cheapest on, until one reaches the rung.
  * 3. Where the first `most_tries` do not, advise the one that came closest. */
 #include <math.h>
 
 #include "tradeoff/ways.h"
 
-static const double doubt = 1.2;
+static const double doubt = 1.2, less_doubt = 1.02;
 enum { most_tries = 6 };
 
 double ways_first(const struct ways *ways, int bake, int picture) {
@@ -30,6 +31,18 @@ struct search {
   bool seen[WAYS_MOST_BAKES][WAYS_PICTURES];
 };
 
+/* The least error that a way may have. */
+static double likely(const struct ways *ways, int bake, int picture) {
+  const struct ways_made *made = &ways->made[bake][picture], *tried = NULL;
+  if (made->tried) return made->measured;
+  for (int p = 0; p < WAYS_PICTURES; ++p) {
+    const struct ways_made *other = &ways->made[bake][p];
+    if (other->tried && (!tried || other->error < tried->error)) tried = other;
+  }
+  return tried ? made->predicted * tried->measured / tried->predicted / less_doubt
+               : made->predicted / doubt;
+}
+
 static bool next(const struct ways_settings *settings, struct ways *ways, struct search *search,
                  struct ways_advice *advice, int *bake, int *picture) {
   double least = INFINITY;
@@ -37,9 +50,8 @@ static bool next(const struct ways_settings *settings, struct ways *ways, struct
     for (int p = 0; p < WAYS_PICTURES; ++p) {
       const struct ways_made *made = &ways->made[b][p];
       double cost = ways_cost(settings, ways, b, p), first = ways_first(ways, b, p);
-      double likely = made->tried ? made->measured : made->predicted / doubt;
       if (search->seen[b][p] || made->refused || ways_in_povray(p) != search->povray ||
-          likely > search->error)
+          likely(ways, b, p) > search->error)
         continue;
       if (settings->time_limit > 0 && first > settings->time_limit) {
         if (advice->cheapest == 0 || first < advice->cheapest) advice->cheapest = first;
@@ -79,20 +91,24 @@ static enum result choose_one(const struct ways_settings *settings, struct ways 
 /* More than this share of the error left by four times the rays is no noise. */
 static const double noise_share = 0.75;
 
-/* Seconds of the whole lamp's picture at that error: measured, or else reckoned: its noise falls
- * with the root of the rays, for each of which it takes as long as between the last two
- * pictures. */
+/* Seconds of the whole lamp's picture at that error: between the two pictures around it, or, finer
+ * than all, reckoned: noise falls with the root of the rays, for each of which POV-Ray takes as
+ * long as between the last two pictures. */
 static void whole_lamp(const struct ways *ways, double error, struct ways_advice *advice) {
-  int count = ways->lamp_count;
-  for (int k = count - 1; k >= 0; --k)
-    if (ways->lamp[k].error <= error) advice->whole = ways->lamp[k].cpu;
-  if (advice->whole > 0 || count < 2) return;
-  const struct ways_lamp *last = &ways->lamp[count - 1], *before = last - 1;
-  if (last->error > noise_share * before->error) return;
-  double ray = (last->cpu - before->cpu) / (last->rays - before->rays);
-  double fewer = last->error / error;
-  advice->whole = last->cpu + ray * last->rays * (fewer * fewer - 1);
-  advice->reckoned = true;
+  int count = ways->lamp_count, k = 0;
+  while (k < count && ways->lamp[k].error > error) ++k;
+  const struct ways_lamp *after = &ways->lamp[k < count ? k : count - 1], *before = after - 1;
+  if (count > 0 && k == 0) advice->whole = after->cpu;
+  if (count < 2 || k == 0) return;
+  if (k < count) {
+    double part = log(before->error / error) / log(before->error / after->error);
+    advice->whole = before->cpu * pow(after->cpu / before->cpu, part);
+  } else if (after->error <= noise_share * before->error) {
+    double ray = (after->cpu - before->cpu) / (after->rays - before->rays);
+    double fewer = after->error / error;
+    advice->whole = after->cpu + ray * after->rays * (fewer * fewer - 1);
+    advice->reckoned = true;
+  }
 }
 
 /* bake + include + n pictures < n pictures of the whole lamp. */

@@ -3,6 +3,7 @@
  * POV-Ray to the whole lamp at the same error: the break-even. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tradeoff/plot.h"
 #include "tradeoff/ways.h"
@@ -67,7 +68,7 @@ static void print_points(FILE *file, const char *name, int number, const struct 
   fputs("END\n", file);
 }
 
-/* A circle for each way that is advised, and --uv, --st and --rays of its bake. */
+/* A circle for each way that is advised, and its bake. */
 static int print_advice(FILE *file, const struct ways_settings *settings, const struct ways *ways) {
   int count = 0;
   fputs("$advised << END\n", file);
@@ -80,7 +81,7 @@ static int print_advice(FILE *file, const struct ways_settings *settings, const 
       fprintf(file, "%.6g %.6g \"", ways_first(ways, advice->bake, advice->picture),
               100 * ways->made[advice->bake][advice->picture].measured);
       if (renderer == 0 && bake->rays > 0)
-        fprintf(file, "%d, %d; %d", bake->uv, bake->st, bake->rays);
+        fprintf(file, "uv %d, st %d, %d rays", bake->uv, bake->st, bake->rays);
       fputs("\"\n", file);
     }
   fputs("END\n", file);
@@ -122,8 +123,9 @@ static void print_axes(FILE *file, const struct ways_settings *settings, struct 
           "set logscale xy\nset format x '%%g'\nset format y '%%g'\n"
           "set xrange [%.4g:%.4g]\nset yrange [%.4g:%.4g]\n"
           "set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200)\nset grid\n"
-          "set key outside right\n"
-          "set xlabel 'CPU seconds from the lamp script to the first picture'\n"
+          "set key outside bottom center horizontal Left reverse width -4 spacing 0.9\n"
+          "set xlabel 'CPU seconds from the lamp script to the first picture' offset "
+          "0,0.4\n"
           "set ylabel 'error of the picture, %%'\n",
           cpu.low / 1.5, cpu.high * 1.5, 100 * error.low / 1.5, 100 * error.high * 1.3);
   for (int rung = 0; rung < settings->error_count; ++rung)
@@ -154,6 +156,16 @@ static void print_whole(FILE *file, const struct ways_settings *settings, const 
   if (count) print_points(file, "reckoned", 0, reckoned, more);
 }
 
+static const char *base(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static void print_title(const struct ways_settings *settings, char title[512]) {
+  snprintf(title, 512, "%s in %s: from the lamp to the picture", base(settings->lamp),
+           base(settings->mesh));
+}
+
 void ways_plot(FILE *file, const struct ways_settings *settings, const struct ways *ways) {
   struct point points[MOST];
   struct range cpu = {INFINITY, 0}, error = {INFINITY, 0};
@@ -172,7 +184,9 @@ void ways_plot(FILE *file, const struct ways_settings *settings, const struct wa
   print_axes(file, settings, cpu, error);
   print_break_even(file, settings, ways);
   fputs("set title ", file);
-  plot_quote(file, settings->lamp);
+  char title[512];
+  print_title(settings, title);
+  plot_quote(file, title);
   fputs(" noenhanced\nplot ", file);
   const char *between = "";
   for (int k = 0; k < LINES; ++k) {
@@ -189,7 +203,7 @@ void ways_plot(FILE *file, const struct ways_settings *settings, const struct wa
             between);
   if (advised)
     fputs(", $advised with points pt 6 ps 2.6 lw 2 lc rgb '#ff7f0e' title 'advised', "
-          "$advised using 1:2:3 with labels noenhanced offset 0,-1.1 font ',10' notitle",
+          "$advised using 1:2:3 with labels noenhanced left offset 0.6,-0.9 font ',9' notitle",
           file);
   fputc('\n', file);
 }

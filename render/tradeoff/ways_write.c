@@ -22,7 +22,7 @@ static void say_whole(FILE *file, const struct ways *ways, const struct ways_adv
   const struct ways_lamp *best = ways->lamp_count ? &ways->lamp[ways->lamp_count - 1] : NULL;
   const char *about = advice->reckoned ? "about " : "";
   if (advice->pays_from > 0)
-    fprintf(file, "; cheaper than the whole lamp (%s%.3g s) from picture %d on", about,
+    fprintf(file, "; cheaper than the whole lamp (%s%.4g s) from picture %d on", about,
             advice->whole, advice->pays_from);
   else if (advice->whole > 0)
     fprintf(file, "; the whole lamp is cheaper: %s%.2g s", about, advice->whole);
@@ -46,8 +46,10 @@ static void say_way(FILE *file, const struct ways_settings *settings, const stru
   if (advice->best > 0 && advice->best < cost)
     fprintf(file, "; one of %d cheaper ways would do, for %.3g of the seconds", advice->cheaper,
             advice->best / cost);
-  else if (advice->best > 0)
+  else if (advice->best > 0 && advice->cheaper > 0)
     fprintf(file, "; none of %d cheaper ways would do", advice->cheaper);
+  else if (advice->best > 0)
+    fputs("; nothing is cheaper", file);
 }
 
 static void say_rung(FILE *file, const char *before, const struct ways_settings *settings,

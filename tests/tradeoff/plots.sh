@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
-# plots.sh - the plots of `make tradeoff`, by gnuplot, from the tables in $BUILD; SVG and PNG.
-#   plots.sh scene LAMP SCENE   error against time, every method and POV-Ray's includes
-#   plots.sh main               the same for the paper's lamp in the office
-#   plots.sh resolution         the floor's error against the slab's samples
+# plots.sh - the plot of `make tradeoff` of the floor's error against the slab's samples, by
+# gnuplot, from the table in $BUILD; SVG and PNG.
 set -euo pipefail
 cd "$BUILD"
 
@@ -16,45 +14,6 @@ $script"
   gnuplot <<<"set terminal pngcairo size 900,560 font 'sans,12'
 set output '$name.png'
 $script"
-}
-
-# What has been measured by METHOD, as an inline block of gnuplot: CPU seconds, error.
-block() { # TABLE METHOD NAME CONDITION
-  echo "\$$3 << END"
-  awk -F'\t' -v method="$2" "/^#/ { next } !n { n = NF; for (k = 1; k <= NF; ++k) at[k] = \$k; next }
-    { for (k = 1; k <= NF; ++k) f[at[k]] = \$k }
-    f[\"method\"] == method && $4 { if (f[\"level\"] == \"auto\") print \"\"; print f[\"cpu\"], f[\"rms\"] }" "$1"
-  echo END
-}
-
-scene() { # TABLE OF-POV-RAY TITLE
-  local table=$1 pov=$2 method number=0 plots=() style
-  local colours=('#d62728' '#1f77b4' '#7f7f7f' '#ff7f0e' '#2ca02c' '#9467bd' '#8c564b' '#17becf' '#555555' '#bcbd22')
-  for method in $(awk -F'\t' '/^#/ { next } n++ && !seen[$1]++ { print $1 }' "$table"); do
-    block "$table" "$method" "m$number" 'f["sum_rms"] != "-"'
-    style="with linespoints lw 2 pt $((number + 4)) ps 1.2 lc rgb '${colours[number % 10]}'"
-    plots+=("\$m$number $style title '$method'")
-    number=$((number + 1))
-  done
-  block "$table" auto shadows 'f["sum_rms"] == "-"'
-  plots+=("\$shadows with linespoints lw 2 pt 7 ps 1 lc rgb '#e377c2' title 'auto, other shadows'")
-  echo '$pov << END'
-  grep -v '^[#l]' "$pov"
-  echo END
-  plots+=("\$pov using 2:3 with linespoints lw 2 dt 2 pt 2 ps 1.5 lc rgb 'black' title 'POV-Ray, include'")
-  plots+=("\$pov using 2:3:1 with labels offset 0.8,0.8 left notitle")
-  cat <<PLOT
-set title "$3"
-set logscale xy
-set format y '10^{%T}'
-set format x '%g'
-set grid
-set key outside right noenhanced
-set xlabel 'CPU seconds'
-set ylabel 'relative error of the picture (RMS)'
-set offsets graph 0.03, graph 0.06, graph 0.05, graph 0.05
-plot $(printf '%s, ' "${plots[@]}" | sed 's/, $//')
-PLOT
 }
 
 resolution() {
@@ -88,8 +47,4 @@ plot $(printf '%s, ' "${plots[@]}" | sed 's/, $//')
 PLOT
 }
 
-case $1 in
-scene) scene "$2-$3.tsv" "$2-$3-pov.tsv" "lamp $2, scene $3" | draw "$2-$3" ;;
-main) scene parabolic-office.tsv parabolic-office-pov.tsv "The paper's lamp in an office: what accuracy costs (numbers: lights a side)" | draw main ;;
-resolution) resolution | draw resolution ;;
-esac
+resolution | draw resolution

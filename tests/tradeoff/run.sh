@@ -1,36 +1,18 @@
 #!/usr/bin/env bash
-# What `make tradeoff` does: three lamps in three scenes, by renderslab tradeoff and by POV-Ray
-# with the include at 16, 8, 4 and 1 lights a side; and the bake's resolution against the error
-# of a floor. Tables and plots go to $BUILD, which holds parabolic.tif already.
+# What `make tradeoff` does: three lamps in three scenes, by renderslab tradeoff from the lamp's
+# script on; and the bake's resolution against the error of a floor. Tables and plots go to $BUILD.
 set -euo pipefail
 # shellcheck source=tests/tradeoff/tradeoff.bash
 . "$(dirname "$0")/tradeoff.bash"
 
-# pov LAMP SCENE: PREFIX-pov.tsv, like the table of renderslab tradeoff. CPU seconds are those
-# over a picture of 2 x 2 pixels, which reads the same files.
-pov() {
-  local lamp=$1 scene=$2 prefix=$1-$2 size=${sizes[$2]} n cpu rms most start factor wide
-  local macro=${lamp^}
-  "$RENDERSLAB" image "$scene.obj" --light "$lamp.tif ${places[$scene]}" --camera "${cameras[$scene]}" \
-    --size "$size" --method reference --shadow-edge 1024 -q -o "$prefix-layers.exr"
-  plain "$prefix-layers.exr" "$prefix-reference.exr"
-  "$RENDERSLAB" pov "$scene.obj" --light "$lamp.tif ${places[$scene]}" --camera "${cameras[$scene]}" \
-    --size "$size" -q -o "$prefix.pov"
-  printf '# POV-Ray 3.7 with %s.inc at N x N lights; errors against renderslab reference\nlights\tcpu\trms\tmax\n' \
-    "$lamp" >"$prefix-pov.tsv.new"
-  for n in 16 8 4 1; do
-    # Few lights take less than the clock can tell: 16 times the pixels then.
-    factor=1
-    [ "$n" -gt 4 ] || factor=4
-    wide=$((${size%x*} * factor))x$((${size#*x} * factor))
-    povray_cpu "$prefix-$n.exr" "$prefix.pov" "$size" "Declare=${macro}_Lights=$n" >/dev/null
-    start=$(povray_cpu "$prefix-time.exr" "$prefix.pov" 2x2 "Declare=${macro}_Lights=$n")
-    cpu=$(povray_cpu "$prefix-time.exr" "$prefix.pov" "$wide" "Declare=${macro}_Lights=$n")
-    read -r rms most < <("$LAMPS" compare "$prefix-$n.exr" "$prefix-reference.exr")
-    awk -v n="$n" -v cpu="$cpu" -v start="$start" -v rms="$rms" -v most="$most" -v factor="$factor" \
-      'BEGIN { t = (cpu - start)/factor^2; printf "%d\t%.3g\t%s\t%s\n", n, (t > 1e-4 ? t : 1e-4), rms, most }' >>"$prefix-pov.tsv.new"
-  done
-  mv "$prefix-pov.tsv.new" "$prefix-pov.tsv"
+# ways LAMP SCENE: the cheapest way to each error, from the lamp's script to the picture: words,
+# table and plots. What a lamp's bakes took is kept for the scenes that follow.
+ways() {
+  local lamp=$1 scene=$2
+  echo "$lamp, $scene"
+  "$RENDERSLAB" tradeoff "$scene.obj" --light "$root/lamps/$lamp.pov ${places[$scene]} toward=0,0,0 up=0,0,1" \
+    --camera "${cameras[$scene]}" --size 320x240 --errors 0.2,0.1,0.05,0.02 --bakes bakes \
+    -o "$lamp-$scene.tsv" --plot "$lamp-$scene.png" | tee "$lamp-$scene.txt"
 }
 
 # resolution UV ST: a line of the table. The truth and exact means of cells are by the ray
@@ -69,15 +51,9 @@ all_resolutions() {
 
 prepare
 all_resolutions
-"$here/plots.sh" resolution
-for scene in far office near; do
-  for lamp in smooth peaks parabolic; do
-    echo "$lamp, $scene"
-    "$RENDERSLAB" tradeoff "$scene.obj" --light "$lamp.tif ${places[$scene]}" --camera "${cameras[$scene]}" \
-      --size "${sizes[$scene]}" --finest 1e-3 -o "$lamp-$scene.tsv"
-    pov "$lamp" "$scene"
-    "$here/plots.sh" scene "$lamp" "$scene"
-  done
+"$here/plots.sh"
+# A diffuse reflector; mirrors; a lens, by photons.
+for lamp in desk_lamp headlight torch; do
+  for scene in far office near; do ways "$lamp" "$scene"; done
 done
-"$here/plots.sh" main
-echo "Look at $(basename "$BUILD")/main.png, resolution.png and the others, in $BUILD"
+echo "Look at desk_lamp-office.png, resolution.png and the others, in $BUILD"

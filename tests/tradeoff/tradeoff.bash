@@ -12,8 +12,6 @@ declare -A cameras=(
   [near]='from=-30,50,-48 at=0,6,0 fov=48'
   [office]='from=-120,430,-330 at=5,40,10 fov=56'
   [far]='from=-900,3600,-2600 at=0,150,0 fov=56')
-# Near the lamp a pixel costs ten times as much.
-declare -A sizes=([near]=48x36 [office]=80x60 [far]=80x60)
 
 # Lamps of 16x16 x 64x64 samples as the paper's, and the scenes.
 prepare() {
@@ -21,9 +19,6 @@ prepare() {
   cp "$here/room.mtl" .
   for scene in near office far; do "$LAMPS" "$scene" "$scene.obj"; done
   for lamp in smooth peaks; do "$LAMPS" "$lamp" "$lamp.tif" 16 64; done
-  for lamp in smooth peaks parabolic; do
-    [ "$lamp.inc" -nt "$lamp.tif" ] || "$BAKESLAB" include "$lamp.tif" -o "$lamp.inc" -q
-  done
 }
 
 # plain A.exr B.exr: the picture alone, without its layer of errors.
