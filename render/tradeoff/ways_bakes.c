@@ -54,19 +54,17 @@ static void show(const struct ways_settings *settings, int candidate) {
 static enum result name_files(const struct ways_settings *settings, const struct ways *ways,
                               struct ways_bake *bake, char **clock, struct error *error) {
   const char *folder = settings->bakes ? settings->bakes : ways->programs.folder;
-  char *lamp = strdup(settings->lamp);
+  char *lamp = strdup(settings->lamp), *stem = NULL;
   if (!lamp) return result_no_memory(error);
   char *name = basename(lamp), *dot = strrchr(name, '.');
   if (dot) *dot = 0;
-  bool good = asprintf(&bake->slab, "%s/%s-%dx%d-%d.tif", folder, name, bake->uv, bake->st,
-                       bake->rays) >= 0;
-  if (!good) bake->slab = NULL;
-  if (good && asprintf(clock, "%.*s.cpu", (int)strlen(bake->slab) - 4, bake->slab) < 0) {
-    *clock = NULL;
-    good = false;
-  }
+  int length = asprintf(&stem, "%s/%s-%dx%d-%d", folder, name, bake->uv, bake->st, bake->rays);
   free(lamp);
-  return good ? RESULT_OK : result_no_memory(error);
+  if (length < 0) return result_no_memory(error);
+  if (asprintf(&bake->slab, "%s.tif", stem) < 0) bake->slab = NULL;
+  if (asprintf(clock, "%s.cpu", stem) < 0) *clock = NULL;
+  free(stem);
+  return bake->slab && *clock ? RESULT_OK : result_no_memory(error);
 }
 
 /* Was it baked before, after the script was changed last? */

@@ -119,15 +119,15 @@ static void widen(struct range *range, double value) {
 
 static void print_axes(FILE *file, const struct ways_settings *settings, struct range cpu,
                        struct range error) {
-  fprintf(file,
-          "set logscale xy\nset format x '%%g'\nset format y '%%g'\n"
-          "set xrange [%.4g:%.4g]\nset yrange [%.4g:%.4g]\n"
-          "set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200)\nset grid\n"
-          "set key outside bottom center horizontal Left reverse width -4 spacing 0.9\n"
-          "set xlabel 'CPU seconds from the lamp script to the first picture' offset "
-          "0,0.4\n"
-          "set ylabel 'error of the picture, %%'\n",
-          cpu.low / 1.5, cpu.high * 1.5, 100 * error.low / 1.5, 100 * error.high * 1.3);
+  fprintf(
+      file,
+      "set logscale xy\nset format x '%%g'\nset format y '%%g'\n"
+      "set xrange [%.4g:%.4g]\nset yrange [%.4g:%.4g]\n"
+      "set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200)\nset grid\n"
+      "set bmargin 9\nset key at screen 0.5,0.01 center bottom horizontal Left reverse maxrows 4\n"
+      "set xlabel 'CPU seconds from the lamp script to the first picture'\n"
+      "set ylabel 'error of the picture, %%'\n",
+      cpu.low / 1.5, cpu.high * 1.5, 100 * error.low / 1.5, 100 * error.high * 1.3);
   for (int rung = 0; rung < settings->error_count; ++rung)
     fprintf(file,
             "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead lw 1 lc rgb "

@@ -113,8 +113,8 @@ static const char *const explained[] = {
     "slab_told: the slab's own error as it tells itself; slab_error: that of its picture by",
     "  renderslab's reference; picture_error: of the include or method, against its slab's picture",
     "  by reference; predicted: the root of the sum of both squares; measured: - if not tried",
-    "whole lamp: POV-Ray with the lamp itself; rays: those that gather at a point, or "
-    "photons/1000"};
+    "whole lamp: POV-Ray with the lamp itself; rays: those that gather at a point, or",
+    "  photons / 1000"};
 
 static void print_number(FILE *file, bool there, double number) {
   if (there)
