@@ -24,7 +24,7 @@ resolution() {
   "$FLOOR" truth "$name.bin" "$uv" "$st" $((268435456 / (uv * uv * st * st))) >/dev/null
   read -r ideal _ < <("$FLOOR" ideal "$name.bin")
   if [ "$uv" -le 16 ] && [ "$st" -le 64 ]; then
-    [ -f "$name.cpu" ] || cpu_of "$name.cpu" "$BAKESLAB" bake "$root/lamps/parabolic.pov" -o "$name.exr" \
+    [ -f "$name.cpu" ] || cpu_of "$name.cpu" "$BAKESLAB" bake "$root/lamps/parabolic.pov" -o "$name.exr" --window declared \
       --uv "${uv}x$uv" --st "${st}x$st" --effects none --jobs 1 --quiet
     read -r baked _ < <("$FLOOR" compare "$name.bin" "$name.exr")
     cpu=$(cat "$name.cpu")
