@@ -2,7 +2,7 @@
 # that sets up by itself is made by a second make, which begins when set-up has ended. The first
 # one reads no other rule: nothing is generated, compiled or asked of pkg-config before.
 SETUP ?= yes
-SETS_UP := setup demo lamps figures tradeoff test bare stability bench lint sanitize fuzz fuzz_all man install
+SETS_UP := setup demo lamps figures tradeoff peers test bare stability bench lint sanitize fuzz fuzz_all man install
 
 # Where there is no Debian, pkg-config is asked for these.
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
@@ -14,6 +14,7 @@ PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc g++) libc6-dev make p
   libcgal-dev libopenimageio-dev libembree-dev libpng-dev libepoxy-dev libegl-dev libglfw3-dev
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
+PACKAGES_peers := python3-venv libedit2 libz3-4
 PACKAGES_lamps := povray povray-includes jq
 PACKAGES_man  := help2man scdoc
 PACKAGES_bare := git debootstrap
@@ -23,8 +24,9 @@ PACKAGES_fuzz := clang libclang-rt-14-dev
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
 PACKAGES := $(sort $(if $(filter-out bare,$(MAKECMDGOALS)),$(PACKAGES_build)) \
-  $(call goals_need,demo bench figures tradeoff,$(PACKAGES_demo)) \
-  $(call goals_need,tradeoff,$(PACKAGES_plot)) \
+  $(call goals_need,demo bench figures tradeoff peers,$(PACKAGES_demo)) \
+  $(call goals_need,tradeoff peers,$(PACKAGES_plot)) \
+  $(call goals_need,peers,$(PACKAGES_peers)) \
   $(call goals_need,lamps,$(PACKAGES_lamps)) \
   $(call goals_need,setup test stability sanitize,$(PACKAGES_test)) \
   $(call goals_need,setup bare,$(PACKAGES_bare)) \

@@ -73,6 +73,12 @@ tradeoff: $(BIN) $(BENCH_FLOOR) $(TRADEOFF_LAMPS) ## measure what accuracy costs
 	@mkdir -p build/tradeoff
 	@$(TEST_ENV) BUILD=$(abspath build/tradeoff) LAMPS=$(abspath $(TRADEOFF_LAMPS)) FLOOR=$(abspath $(BENCH_FLOOR)) tests/tradeoff/run.sh
 
+# In a scratch environment below build/peers, from PyPI and Debian: needs the network once.
+.PHONY: peers
+peers: $(BIN) ## measure beside Mitsuba, Radiance and POV-Ray what a picture of two lamps costs
+	@mkdir -p build/peers
+	@$(TEST_ENV) BUILD=$(abspath build/peers) tests/peers/run.sh
+
 bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \

@@ -55,7 +55,7 @@ each_alone() { # every header compiles by itself, as C or, .hh, as C++
 }
 
 long_files() {
-  only '\.(c|h|cc|hh|glsl|in|sh|bash|bats|inc|pov|mk|scd)$|^Makefile$' | xargs wc -l |
+  only '\.(c|h|cc|hh|glsl|in|sh|bash|bats|inc|pov|mk|scd|py)$|^Makefile$' | xargs wc -l |
     awk '$2 != "total" && $1 > 400 { print $2 ": " $1 " lines; at most 400"; bad = 1 } END { exit bad }'
 }
 
