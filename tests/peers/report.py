@@ -35,7 +35,7 @@ def picture(name):
 def error(x, a, b):
     """Relative RMS error, and the mean over the truth's."""
     mean = (a.mean() + b.mean())/2
-    return max(((x - a)*(x - b)).mean(), 1e-8)**0.5/mean, x.mean()/mean
+    return max(((x - a)*(x - b)).mean(), 1e-8*mean*mean)**0.5/mean, x.mean()/mean
 
 
 def rows(folder):
