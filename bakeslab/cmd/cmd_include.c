@@ -205,7 +205,8 @@ static enum result write_include(const struct arguments *arguments, const struct
                                  const char *image, struct error *error) {
   json_t *root = NULL;
   char *own_error = NULL;
-  enum result result = include_own_error(slabs, count, &own_error, error);
+  enum result result =
+      include_own_error(slabs, count, include_choice_error, choice, &own_error, error);
   if (result == RESULT_OK) result = slab_json_root(&slabs[0], &root, error);
   if (result != RESULT_OK) goto out;
   const char *housing =

@@ -1,8 +1,10 @@
 /* cmd_info.c - bakeslab info: what a slab is, for people or as JSON. The JSON has an object a page:
  *   page, name, precision, lossy (a compression, or null), samples, center, u, v, normal,
  * st_window, st_distance, metres_per_unit, radiance_unit, samples_are, flux [r, g, b], flux_unit,
- * peak [r, g, b], peak_sample [i, j, k, l], lowest (the smallest channel value), provenance. Flux
- * is in W or lm where the radiance has such a unit, always with lengths in metres
+ * peak [r, g, b], peak_sample [i, j, k, l], lowest (the smallest channel value), error, provenance.
+ * error is an array of {apertures, noise, resolution, logluv, all}: the slab's own error so many
+ * apertures away (slab_accuracy.h); null where it is not known, `all` is that of what is known.
+ * Flux is in W or lm where the radiance has such a unit, always with lengths in metres
  * (slab_flux_metric). */
 #include <math.h>
 #include <stdio.h>
@@ -12,6 +14,7 @@
 #include "file/json_text.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
+#include "slab/slab_accuracy.h"
 
 struct options {
   const char *path;
@@ -33,10 +36,11 @@ struct page {
   const char *lossy; /* of slab_file_lossy; the file's */
   double flux[3], peak[3], lowest;
   int peak_sample[SLAB_AXES];
+  struct slab_accuracy accuracy[SLAB_ACCURACY_DISTANCES];
   json_t *root; /* the page's own JSON */
 };
 
-/* Flux, peak and lowest value. */
+/* Flux, peak, lowest value and error. */
 static enum result find_figures(struct page *page, struct error *error) {
   const struct slab *slab = &page->slab;
   const float *rgb = slab->rgb;
@@ -48,7 +52,10 @@ static enum result find_figures(struct page *page, struct error *error) {
   slab_locate(slab, highest / 3, page->peak_sample);
   for (size_t c = 0; c < 3; ++c) page->peak[c] = (double)rgb[highest / 3 * 3 + c];
   page->lowest = (double)rgb[lowest];
-  return slab_flux_metric(slab, page->flux, error);
+  struct slab_sampling sampling;
+  enum result result = slab_json_sampling(slab, &sampling, error);
+  if (result == RESULT_OK) result = slab_accuracy_table(slab, &sampling, page->accuracy, error);
+  return result == RESULT_OK ? slab_flux_metric(slab, page->flux, error) : result;
 }
 
 static enum result read_page(struct slab_file *file, int number, struct page *page,
@@ -71,6 +78,23 @@ static json_t *numbers(const double *list, size_t count) {
   return array;
 }
 
+static json_t *number_or_null(double x) {
+  return isfinite(x) ? json_real(x) : json_null();
+}
+
+static json_t *errors(const struct page *page) {
+  json_t *array = json_array();
+  for (int d = 0; d < SLAB_ACCURACY_DISTANCES; ++d) {
+    const struct slab_accuracy *told = &page->accuracy[d];
+    json_array_append_new(
+        array,
+        json_pack("{s:f, s:o, s:o, s:o, s:o}", "apertures", slab_accuracy_apertures[d], "noise",
+                  number_or_null(told->noise), "resolution", number_or_null(told->resolution),
+                  "logluv", json_real(told->logluv), "all", number_or_null(told->all)));
+  }
+  return array;
+}
+
 static json_t *describe(const struct page *page, int number) {
   const struct slab *slab = &page->slab;
   const int *n = slab->samples, *at = page->peak_sample;
@@ -78,7 +102,7 @@ static json_t *describe(const struct page *page, int number) {
   return json_pack(
       "{s:i, s:s, s:s, s:s?, s:[iiii], s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:s, s:O*, s:o, s:s, "
       "s:o, "
-      "s:[iiii], s:f, s:O*}",
+      "s:[iiii], s:f, s:o, s:O*}",
       "page", number, "name", slab->name, "precision", cli_precision_name(page->precision), "lossy",
       page->lossy, "samples", n[0], n[1], n[2], n[3], "center", numbers(slab->center, 3), "u",
       numbers(slab->u, 3), "v", numbers(slab->v, 3), "normal", numbers(slab->normal, 3),
@@ -87,7 +111,8 @@ static json_t *describe(const struct page *page, int number) {
       slab->metres_per_unit, "radiance_unit", slab->radiance_unit, "samples_are",
       json_object_get(page->root, "samples_are"), "flux", numbers(page->flux, 3), "flux_unit",
       slab_flux_unit(slab), "peak", numbers(page->peak, 3), "peak_sample", at[0], at[1], at[2],
-      at[3], "lowest", page->lowest, "provenance", json_object_get(page->root, "provenance"));
+      at[3], "lowest", page->lowest, "error", errors(page), "provenance",
+      json_object_get(page->root, "provenance"));
 }
 
 static enum result print_json(const char *path, const struct page *pages, int count,
@@ -121,6 +146,25 @@ static enum result print_value(const char *key, const json_t *value, struct erro
   return result;
 }
 
+static void print_error(const struct slab_accuracy *told, double apertures) {
+  const struct {
+    const char *name;
+    double part;
+  } parts[] = {{"noise", told->noise}, {"resolution", told->resolution}, {"LogLuv", told->logluv}};
+  bool lacks = isnan(told->st) || isnan(told->uv) || isnan(told->noise);
+  printf("  %-14s", "error");
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k)
+    if (isnan(parts[k].part))
+      printf("%s unknown, ", parts[k].name);
+    else
+      printf("%s %.2g %%, ", parts[k].name, 100 * parts[k].part);
+  if (isnan(told->all))
+    printf("all unknown");
+  else
+    printf("all %s%.2g %%", lacks ? "at least " : "", 100 * told->all);
+  printf(" at %g aperture%s (%.6g)\n", apertures, apertures > 1 ? "s" : "", told->distance);
+}
+
 static void print_page(const char *path, const struct page *page, int number, int count) {
   const struct slab *slab = &page->slab;
   const int *n = slab->samples, *at = page->peak_sample;
@@ -143,6 +187,8 @@ static void print_page(const char *path, const struct page *page, int number, in
   printf("  %-14s%.6g %.6g %.6g (%s) at sample (%d, %d, %d, %d)\n", "peak", peak[0], peak[1],
          peak[2], slab->radiance_unit, at[0], at[1], at[2], at[3]);
   printf("  %-14s%.6g\n", "lowest", page->lowest);
+  for (int d = 0; d < SLAB_ACCURACY_DISTANCES; ++d)
+    print_error(&page->accuracy[d], slab_accuracy_apertures[d]);
   const char *how = json_string_value(json_object_get(page->root, "samples_are"));
   if (how) printf("  %-14s%s\n", "samples are", how);
 }
@@ -185,7 +231,9 @@ static enum result run(void *input, struct error *error) {
 
 static const char doc[] =
     "Prints what a light slab is: geometry, samples, flux and peak of each page, and how "
-    "it was made: the effects, the estimated noise and the rest of its provenance. Flux "
+    "it was made: the effects, the estimated noise and the rest of its provenance; and its own "
+    "error of irradiance on a surface that faces it, estimated as by check --error, by noise, "
+    "resolution and rounding to LogLuv, which scenes lit by it inherit. Flux "
     "is the integral of the interpolated radiance times the cosine, with lengths in "
     "metres: in W or lm where the radiance has a unit."
     "\vExamples:\n"

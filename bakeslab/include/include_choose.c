@@ -242,6 +242,21 @@ enum result include_make(const struct slab *slabs, int count, enum include_mode 
   }
 }
 
+/* The sheet's errors are known at other distances: those farthest away that are nearer, which are
+ * rather larger. */
+void include_choice_error(const void *of, int page, double error[SLAB_ACCURACY_DISTANCES]) {
+  const struct include_choice *choice = of;
+  for (int d = 0; d < SLAB_ACCURACY_DISTANCES; ++d) {
+    double apertures = slab_accuracy_apertures[d];
+    if (choice->mode == INCLUDE_SHEET)
+      error[d] = sheet_level_error(&choice->sheet.pages[page].levels[0], apertures);
+    else if (choice->mode == INCLUDE_CLUSTER)
+      error[d] = choice->cluster.pages[page].error[d];
+    else
+      error[d] = choice->point.error[d];
+  }
+}
+
 void include_choice_free(struct include_choice *choice) {
   sheet_free(&choice->sheet);
   cluster_free(&choice->cluster);

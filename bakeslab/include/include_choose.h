@@ -5,6 +5,7 @@
 #include "include/cluster/cluster.h"
 #include "include/point/point.h"
 #include "include/sheet/sheet.h"
+#include "slab/slab_accuracy.h"
 
 enum include_mode { INCLUDE_SHEET = 1, INCLUDE_CLUSTER = 2, INCLUDE_POINT = 4 };
 enum { INCLUDE_ANY = INCLUDE_SHEET | INCLUDE_CLUSTER | INCLUDE_POINT };
@@ -36,6 +37,8 @@ enum result include_choose(const struct slab *slabs, int count, const struct inc
  * cluster, which is fitted for `distance`. */
 enum result include_make(const struct slab *slabs, int count, enum include_mode mode, int lights,
                          double distance, struct include_choice *choice, struct error *error);
+/* Of a choice, as include_lights_error (include_own_error.h). */
+void include_choice_error(const void *choice, int page, double error[SLAB_ACCURACY_DISTANCES]);
 void include_choice_free(struct include_choice *choice);
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef SLAB_ACCURACY_H
 #define SLAB_ACCURACY_H
 
-#include "slab/slab.h"
+#include "slab/slab_sampling.h"
 
 /* Relative RMS over a patch that faces the aperture and holds all of the light: the RMS of
  * the error of irradiance (luminance) over the RMS of irradiance. NAN: not known. */
@@ -22,15 +22,6 @@ struct slab_accuracy {
  * slab's rectangle (plane_width). */
 enum { SLAB_ACCURACY_DISTANCES = 3 };
 extern const double slab_accuracy_apertures[SLAB_ACCURACY_DISTANCES];
-
-/* How a slab's samples were taken: slab_json_sampling. */
-struct slab_sampling {
-  bool points;                     /* rather than means over their cells */
-  bool sharpened;                  /* slab_sharpen.h */
-  double sample_noise, flux_noise; /* as the bake recorded them (bake_sum.h); NAN: not known */
-  bool logluv;                     /* they were rounded to LogLuv, with this factor on XYZ: */
-  double white[3];
-};
 
 /* How much an error by resolution grows by a halving, as observed from the steps from the slab to
  * half its samples and from there to a quarter, within bounds. `st`: along s and t, else u and v.

@@ -4,7 +4,7 @@
 #ifndef SLAB_VARIANT_H
 #define SLAB_VARIANT_H
 
-#include "slab/slab_accuracy.h"
+#include "slab/slab_sampling.h"
 
 enum slab_variant {
   SLAB_ST_2,    /* s and t with half the samples */

@@ -116,6 +116,25 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a - b <= t && b - a <
   [[ $output == *"about 0 % (st 0 %, uv 0 %, noise unknown)"* ]]
 }
 
+@test "info tells the same errors, by their parts; unknown is null, or a word" {
+  raw_slab noisy.tif '[4, 4, 4, 4]' 16 16 ', "provenance": {"noise": {"sample": 0.1, "flux": 0.02}}' "$one" "$zero" "$one"
+  "$BAKESLAB" convert noisy.tif -o logluv.tif --precision logluv
+  for slab in noisy logluv; do
+    "$BAKESLAB" info --json $slab.tif >$slab.json
+    jq -e '[.pages[0].error[] | (.apertures > 0 and .noise > 0.02) and
+      (.all - ([.noise, .resolution, .logluv] | map(. * .) | add | sqrt) | fabs < 1e-9)] == [true, true, true]' $slab.json
+    said=$("$BAKESLAB" info $slab.tif | sed -n 's/.* all \([0-9.e+-]* %\) at .*/\1/p')
+    [ "$said" = "$("$BAKESLAB" check --error $slab.tif | sed -n 's/.*: about \([0-9.e+-]* %\) (.*/\1/p')" ]
+    [ "$(wc -l <<<"$said")" -eq 3 ]
+  done
+  jq -e '[.pages[0].error[].logluv == 0] | all' noisy.json
+  jq -e '[.pages[0].error[].logluv | . > 1e-5 and . < 1e-3] | all' logluv.json
+  raw_slab one.tif '[1, 1, 1, 1]' 1 1 '' "$one"
+  "$BAKESLAB" info --json one.tif | jq -e '[.pages[0].error[] | .noise, .resolution, .all | . == null] | all'
+  run -0 --separate-stderr "$BAKESLAB" info one.tif
+  [[ $output == *"error         noise unknown, resolution unknown, LogLuv 0 %, all unknown at 1 aperture (0.2)"* ]]
+}
+
 @test "check --error: files that are bad are refused as ever" {
   raw_slab nan.tif '[4, 4, 4, 4]' 16 16 '' 7fc00000
   refuses 1 "nan.tif: page 1: sample (0, 0, 0, 0) is not finite" -- "$BAKESLAB" check --error nan.tif

@@ -82,6 +82,11 @@ setup() {
     "$BAKESLAB" include rough.tif -o $mode.inc --mode $mode
     said=$(sed -n 's,^//   page 1: about \(.*\) at 1\, \(.*\) at 4\, \(.*\) at 16.*,\1\n\2\n\3,p' $mode.inc)
     [ "$said" = "$told" ] || { echo "$mode: $said, not $told"; false; }
+    # Its parts, and all with the lights' in quadrature.
+    grep -qE '^//     noise unknown, unknown, unknown; resolution( [0-9.e-]+ %,?){3};$' $mode.inc
+    sed -n "/^\/\/   page 1: about/,/all, with/p" $mode.inc | tr -d '\n/' |
+      sed 's/.*1: about \([0-9.e+-]*\) %.*; lights \([0-9.e+-]*\) %.*: \([0-9.e+-]*\) %.*/\1 \2 \3/;s/ %.*//' |
+      awk '{ exit !($3 > 0 && ($3/sqrt($1^2 + $2^2) - 1)^2 < 0.1^2) }'
   done
 }
 

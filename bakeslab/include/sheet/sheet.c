@@ -166,6 +166,12 @@ enum result sheet_make(const struct slab *slabs, int count, int lights, double d
   return result;
 }
 
+double sheet_level_error(const struct sheet_level *level, double apertures) {
+  int d = SHEET_DISTANCES - 1;
+  while (d > 0 && distances[d] > apertures) --d;
+  return distances[d] > apertures ? INFINITY : level->error[d];
+}
+
 void sheet_free(struct sheet *sheet) {
   for (int p = 0; p < sheet->page_count; ++p)
     for (int k = 0; k < sheet->pages[p].level_count; ++k)

@@ -55,6 +55,9 @@ struct sheet {
  * numbers cannot hold, and a lamp without any light. Free with sheet_free, also after a failure. */
 enum result sheet_make(const struct slab *slabs, int count, int lights, double distance,
                        struct progress *progress, struct sheet *sheet, struct error *error);
+/* The level's error at so many aperture widths, or at the next smaller distance at which it is
+ * told; INFINITY: not known. */
+double sheet_level_error(const struct sheet_level *level, double apertures);
 void sheet_free(struct sheet *sheet);
 
 /* Most lights that the sheet has along an axis. */
