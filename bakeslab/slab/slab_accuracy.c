@@ -8,7 +8,8 @@
  *    as observed; it is kept within the bounds below (Roache 1994, section on the observed order).
  * 4. The error left in E1 is (E2 - E1) / (r - 1) at each receiver (Richardson and Gaunt 1927).
  *    Errors by st and by uv add up there, since both blur the irradiance.
- * 5. What the noise changes is the error by noise, and so with the rounding.
+ * 5. What the noise changes, and what all samples share of it, is the error by noise; and so with
+ *    the rounding.
  * 6. An error is its RMS over the receivers, relative to the RMS of E1; those by resolution, noise
  *    and rounding are added in quadrature.
  *
@@ -104,7 +105,7 @@ static double add_up(const struct slab_accuracy *accuracy) {
 
 /* Steps 2 to 6 at the patch's distance; `e` has room for the irradiance by each light. */
 static void find_accuracy(const struct patch *patch, const struct patch_light *lights,
-                          bool sharpened, double (*e)[PATCH_RECEIVERS],
+                          const struct slab_sampling *sampling, double (*e)[PATCH_RECEIVERS],
                           struct slab_accuracy *accuracy) {
   *accuracy = (struct slab_accuracy){
       .distance = patch->distance, .st = NAN, .uv = NAN, .resolution = NAN, .noise = NAN};
@@ -112,14 +113,18 @@ static void find_accuracy(const struct patch *patch, const struct patch_light *l
   for (int k = 0; k < LIGHTS; ++k)
     if (lights[k].luminance) patch_irradiance(patch, &lights[k], e[k]);
   double level = rms(e[FULL]), scale = level > 0 ? 1 / level : 0;
-  if (lights[SLAB_NOISY].luminance) accuracy->noise = scale * differ(e[SLAB_NOISY], e[FULL]);
+  double shared = level > 0 && sampling->flux_noise > 0 ? sampling->flux_noise : 0;
+  if (lights[SLAB_NOISY].luminance)
+    accuracy->noise = hypot(scale * differ(e[SLAB_NOISY], e[FULL]), shared);
   if (lights[SLAB_ROUNDED].luminance) accuracy->logluv = scale * differ(e[SLAB_ROUNDED], e[FULL]);
   if (lights[SLAB_ST_4].luminance)
-    accuracy->st = scale * extrapolate(e[FULL], e[SLAB_ST_2], e[SLAB_ST_4], true, sharpened);
+    accuracy->st =
+        scale * extrapolate(e[FULL], e[SLAB_ST_2], e[SLAB_ST_4], true, sampling->sharpened);
   else
     memset(e[SLAB_ST_2], 0, sizeof *e);
   if (lights[SLAB_UV_4].luminance)
-    accuracy->uv = scale * extrapolate(e[FULL], e[SLAB_UV_2], e[SLAB_UV_4], false, sharpened);
+    accuracy->uv =
+        scale * extrapolate(e[FULL], e[SLAB_UV_2], e[SLAB_UV_4], false, sampling->sharpened);
   else
     memset(e[SLAB_UV_2], 0, sizeof *e);
   for (int n = 0; n < PATCH_RECEIVERS; ++n) e[FULL][n] = e[SLAB_ST_2][n] + e[SLAB_UV_2][n];
@@ -138,7 +143,7 @@ enum result slab_accuracy_estimate(const struct slab *slab, const struct slab_sa
   for (int n = 0; n < count && result == RESULT_OK; ++n) {
     struct patch patch;
     result = patch_make(slab, distances[n], &extent, &patch, error);
-    if (result == RESULT_OK) find_accuracy(&patch, lights, sampling->sharpened, e, &accuracy[n]);
+    if (result == RESULT_OK) find_accuracy(&patch, lights, sampling, e, &accuracy[n]);
     patch_free(&patch);
   }
   for (int k = 0; k < LIGHTS; ++k) free(lights[k].luminance);

@@ -111,11 +111,10 @@ static enum result add_noise(const struct slab_sampling *sampling, struct slab *
   for (size_t k = 0; k < pixels && squares; ++k) sum += (double)squares[k];
   bool even = !(sum > 0); /* all samples are the same */
   double scale = sampling->sample_noise / (even ? 1 : sqrt(sum / (double)pixels));
-  double shared = isnan(sampling->flux_noise) ? 0 : sampling->flux_noise;
   for (size_t k = 0; k < pixels && result == RESULT_OK; ++k) {
     double off = scale * (even ? 1 : sqrt((double)squares[k])) * sign_of(k + 1);
     float *rgb = copy->rgb + 3 * k;
-    for (int c = 0; c < 3; ++c) rgb[c] += (float)(shared * (double)rgb[c] + off * colour[c]);
+    for (int c = 0; c < 3; ++c) rgb[c] += (float)(off * colour[c]);
   }
   free(squares);
   return result;

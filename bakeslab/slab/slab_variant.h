@@ -7,11 +7,11 @@
 #include "slab/slab_sampling.h"
 
 enum slab_variant {
-  SLAB_ST_2,    /* s and t with half the samples */
-  SLAB_ST_4,    /* a quarter */
-  SLAB_UV_2,    /* u and v likewise */
-  SLAB_UV_4,    /*  */
-  SLAB_NOISY,   /* the noise that the bake recorded once more */
+  SLAB_ST_2,  /* s and t with half the samples */
+  SLAB_ST_4,  /* a quarter */
+  SLAB_UV_2,  /* u and v likewise */
+  SLAB_UV_4,  /*  */
+  SLAB_NOISY, /* the samples' recorded noise once more, without what they all share (flux_noise) */
   SLAB_ROUNDED, /* rounded to LogLuv once more */
   SLAB_VARIANTS
 };

@@ -53,6 +53,7 @@ struct estimate {
   const struct image_settings *settings;
   const struct picture *picture;
   bool sharpened;        /* a slab is, along s and t */
+  double shared;         /* the largest noise that all samples of a slab share, relative */
   struct looked *pixels; /* owned */
   int count;
   double mean;          /* of the lamps' light over all candidates, and all channels */
@@ -215,6 +216,10 @@ static enum result find_by(const struct estimate *estimate, enum slab_variant wh
   enum result result = gather_variant(estimate, which, estimate->light[1], &lack, error);
   if (result != RESULT_OK) return result;
   double off = differ(estimate, estimate->light[1], estimate->light[0]);
+  if (which == SLAB_NOISY) {
+    memset(estimate->light[1], 0, (size_t)estimate->count * sizeof *estimate->light[1]);
+    off = hypot(off, estimate->shared * differ(estimate, estimate->light[0], estimate->light[1]));
+  }
   *told = which == SLAB_NOISY && lack > 0 ? NAN : off;
   return RESULT_OK;
 }
@@ -258,8 +263,8 @@ static double add_up(const struct image_error *told) {
   return sqrt(sum);
 }
 
-/* Whether a slab is. */
-static enum result find_sharpened(struct estimate *estimate, struct error *error) {
+/* How the slabs' samples were taken. */
+static enum result find_sampling(struct estimate *estimate, struct error *error) {
   const struct gather_settings *gather = &estimate->settings->gather;
   enum result result = RESULT_OK;
   for (int l = 0; l < gather->light_count; ++l)
@@ -267,6 +272,7 @@ static enum result find_sharpened(struct estimate *estimate, struct error *error
       struct slab_sampling sampling;
       result = slab_json_sampling(&gather->lights[l].pages[page].slab, &sampling, error);
       estimate->sharpened |= sampling.sharpened;
+      if (sampling.flux_noise > estimate->shared) estimate->shared = sampling.flux_noise;
     }
   return result;
 }
@@ -274,7 +280,7 @@ static enum result find_sharpened(struct estimate *estimate, struct error *error
 static enum result find_all(struct estimate *estimate, struct image_error *told,
                             struct error *error) {
   struct gather_settings gather = reference(estimate);
-  enum result result = find_sharpened(estimate, error);
+  enum result result = find_sampling(estimate, error);
   for (int k = 0; k < 4 && result == RESULT_OK; ++k) {
     estimate->light[k] = calloc((size_t)estimate->count, sizeof *estimate->light[k]);
     if (!estimate->light[k]) result = result_no_memory(error);
