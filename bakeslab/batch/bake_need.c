@@ -3,9 +3,9 @@
  * 1. Make slabs of the sums so far, and estimate by how much their noise and their resolution
  * change irradiance at the distance asked for (slab_accuracy.h), page by page.
  * 2. Those of the lamp are the pages', weighted by flux: noise in quadrature, blur added.
- * 3. The limit of noise is that asked for, or else the greater of a third of what the resolution
- *    does, which adds a twentieth to the error, and of one that nobody sees; then the flux, which
- *    resolution leaves alone, has a limit of its own. */
+ * 3. The limit of noise is that asked for, or else the greater of a quarter of what the
+ *    resolution does, which adds little to the error, and of one that nobody sees; then the flux,
+ * which resolution leaves alone, has a limit of its own. */
 #include "batch/bake_need.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "slab/slab_accuracy.h"
 
 /* The flux is known about twice as well as is told (bake_sum.h). */
-static const double beside_blur = 1.0 / 3, unseen = 0.0025, unseen_flux = 0.004;
+static const double beside_blur = 0.25, unseen = 0.0025, unseen_flux = 0.004;
 
 double bake_need_distance(const struct bake_options *options, const struct slab *page) {
   return options->for_distance > 0 ? options->for_distance : 4 * plane_width(page);

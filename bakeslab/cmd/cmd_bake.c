@@ -44,16 +44,18 @@ static const struct argp_option options[] = {
     {"st", KEY(st), "NxM", 0, "directions at each position (default 64x64)", 1},
     {"precision", KEY(precision), CLI_PRECISIONS, 0, "number format of the samples", 1},
     {"rays", KEY(rays), "K", 0,
-     "rays a sample, on average: 1 or an even number (default: at most 16, as --noise asks for). A "
+     "rays a sample, on average: 1 or an even number (default: at most 8, as --noise asks for). A "
      "sample is the mean over its 4D cell. With more than 4, a first ray looks for light "
      "everywhere: a beam as wide as a sample is found, of a thinner one the part that it fills. "
      "Others follow around what was found, and most where these are noisy",
      2},
-    {"rays-max", KEY(rays_max), "K", 0, "the most rays for a sample (default 4 x --rays)", 2},
+    {"rays-max", KEY(rays_max), "K", 0,
+     "the most rays for a sample (default 4 x --rays, or 16 x where --noise decides)", 2},
     {"noise", KEY(noise), "T", 0,
      "shoot no more rays than it takes for noise of T in irradiance at --for-distance (relative "
-     "RMS; default: a third of the error by the number of samples, or of --tolerance, and a flux "
-     "known to 0.4 %). With --rays alone, all of those are shot",
+     "RMS; default: a quarter of the error by the number of samples, or a third of --tolerance, "
+     "and "
+     "a flux known to 0.4 %). With --rays alone, all of those are shot",
      2},
     {"uniform", KEY(uniform), 0, 0,
      "the same number of rays for all samples, at the same places of their cells", 2},
@@ -228,7 +230,7 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
 static bool check_rays(struct bake_options *bake) {
   if (bake->centre && bake->rays == 0) bake->rays = 1;
   if (bake->rays > 0 && bake->noise == 0) bake->noise = NAN;
-  if (bake->rays == 0) bake->rays = bake->noise > 0 ? 64 : 16;
+  if (bake->rays == 0) bake->rays = bake->noise > 0 ? 64 : 8;
   if (bake->centre && bake->rays != 1) {
     cli_complain("--centre: shoots one ray a sample; leave --rays out");
     return false;
@@ -237,7 +239,7 @@ static bool check_rays(struct bake_options *bake) {
     cli_complain("--rays %d: not 1 or an even number (rays come in pairs)", bake->rays);
     return false;
   }
-  if (bake->rays_max == 0) bake->rays_max = 4 * bake->rays;
+  if (bake->rays_max == 0) bake->rays_max = (isnan(bake->noise) ? 4 : 16) * bake->rays;
   if (bake->rays_max < bake->rays || bake->rays_max % 2 > bake->rays % 2) {
     cli_complain("--rays-max %d: not an even number that is at least --rays (%d)", bake->rays_max,
                  bake->rays);
