@@ -1,11 +1,11 @@
 /* bake_need.c - see bake_need.h.
  *
  * 1. Make slabs of the sums so far, and estimate by how much their noise and their resolution
- * change irradiance at the distance asked for (slab_accuracy.h), page by page.
+ *    change irradiance at the distance asked for (slab_accuracy.h), page by page.
  * 2. Those of the lamp are the pages', weighted by flux: noise in quadrature, blur added.
  * 3. The limit of noise is that asked for, or else the greater of a quarter of what the
- *    resolution does, which adds little to the error, and of one that nobody sees; then the flux,
- * which resolution leaves alone, has a limit of its own. */
+ *    resolution does, which adds little to the error, and of one that nobody sees. Then the
+ *    flux, which resolution leaves alone, has a limit of its own. */
 #include "batch/bake_need.h"
 
 #include <math.h>

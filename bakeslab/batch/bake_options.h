@@ -19,8 +19,8 @@ struct bake_options {
   double effect_threshold;      /* part of the flux that an effect must change to matter */
   double tolerance;             /* relative RMS of irradiance that decides uv[] and st[]; 0: none */
   double for_distance;          /* in lamp units; 0: none */
-  double
-      noise; /* relative RMS that it may add to irradiance; 0: as suits the resolution; NAN: none */
+  /* Relative RMS that noise may add to irradiance; 0: as suits the resolution; NAN: no limit. */
+  double noise;
   double gain;                         /* 0: by the brightness that the trial run shows */
   void (*warn)(const char *line);      /* told each warning at once; NULL: nobody */
   void (*tell_plan)(const char *line); /* of what it is going to be, before it begins; or NULL */

@@ -23,8 +23,7 @@
 
 /* With fewer passes, the scatter of their pairs says nothing. */
 enum { FIRST = 4 };
-/* Sides of tiles: what a search finds is narrow, but a camera costs as much as some hundred rays.
- */
+/* Sides of tiles: what a search finds is narrow, but a camera costs as much as 256 rays. */
 enum { BEAM_TILE = 8, TILE = 16 };
 
 struct bake_effort bake_effort_of(const struct bake_options *options) {
