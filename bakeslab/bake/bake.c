@@ -209,11 +209,12 @@ static void warn_of_resolution(const struct bake_options *options, const struct 
   static const double certainty = 1.5; /* of both estimates */
   double excess = report->error / options->tolerance;
   if (options->tolerance == 0 || !(excess > certainty)) return;
-  warnings_add(warnings,
-               "the slab's own error is about %.2g, not the tolerance of %g: with %d positions and "
-               "%d directions a side that is its floor; --uv %.0f --st %.0f may reach the tolerance",
-               report->error, options->tolerance, page->samples[SLAB_U], page->samples[SLAB_S],
-               ceil(page->samples[SLAB_U] * sqrt(excess)), ceil(page->samples[SLAB_S] * excess));
+  warnings_add(
+      warnings,
+      "the slab's own error is about %.2g, not the tolerance of %g: with %d positions and "
+      "%d directions a side that is its floor; --uv %.0f --st %.0f may reach the tolerance",
+      report->error, options->tolerance, page->samples[SLAB_U], page->samples[SLAB_S],
+      ceil(page->samples[SLAB_U] * sqrt(excess)), ceil(page->samples[SLAB_S] * excess));
 }
 
 static enum result assess(const struct bake_work *work, struct bake_state *state,

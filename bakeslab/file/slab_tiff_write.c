@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "file/slab_half.h"
-#include "slab/slab_logluv.h"
 #include "file/slab_tiff.h"
+#include "slab/slab_logluv.h"
 
 /* SGILOG32 holds luminance from 2^-64 to 2^64 and chromaticities u', v' up to
  * 255/410. What is dimmer becomes black. */

@@ -1,15 +1,15 @@
 /* probe_window.c - windows fitted to the light.
  *
- * 1. A small bake without interreflection, 24 x 24 directions at as many positions as a slab usually
- *    has: a mirror sends the light of each position somewhere else.
+ * 1. A small bake without interreflection, 24 x 24 directions at as many positions as a slab
+ * usually has: a mirror sends the light of each position somewhere else.
  * 2. With interreflection, which is expensive and smooth, a second one of 10 x 10 directions at few
  *    positions.
  * 3. Along s and t, leave out the samples at either end that hold no more than 1/4000 of a page's
  *    flux together; widen what is left by half a cell, whose rays may have missed some.
  * 4. The window is the part of the declared one that either bake needs.
  * 5. To narrow windows, that is all; a page whose light fills most of its window keeps it.
- * 6. Else, unless the script says Canned_Window_Is_Final, one more bake looks at slopes up to REACH.
- *    The window grows until no more than 1/800 of the page's flux is beyond each end. */
+ * 6. Else, unless the script says Canned_Window_Is_Final, one more bake looks at slopes up to
+ * REACH. The window grows until no more than 1/800 of the page's flux is beyond each end. */
 #include "probe/probe_window.h"
 
 #include <math.h>
@@ -113,9 +113,10 @@ static void fit(struct slab *slab, int page, const double light[4], const double
     if (window[k] == before[k]) window[k] = fmax(window[k], light[k]);
     if (window[k + 1] == before[k + 1]) window[k + 1] = fmin(window[k + 1], light[k + 1]);
   }
-  if (narrow && area(window) > (1 - least_saved) * area(before))
+  if (narrow && area(window) > (1 - least_saved) * area(before)) {
     memcpy(window, before, sizeof slab->st_window);
-  if (narrow && !memcmp(window, before, sizeof slab->st_window)) return;
+    return;
+  }
   size_t used = strlen(windows->line);
   snprintf(windows->line + used, sizeof windows->line - used,
            "%spage %d: %.3g %% of the declared %.4g to %.4g, %.4g to %.4g", used ? "; " : "",
@@ -137,8 +138,7 @@ bool probe_window_pays(const struct bake_work *work) {
 
 /* Steps 1 to 3: of each page, the part of its window that is lit. */
 static enum result find_light(const struct bake_work *work, const struct slab *slabs,
-                              double (*light)[4], struct bake_report *report,
-                              struct error *error) {
+                              double (*light)[4], struct bake_report *report, struct error *error) {
   int pages = work->lamp->slab_count;
   struct effects effects = *work->look.effects;
   int bakes = effects.setting[INTERREFLECTION] > 0 ? 2 : 1;
@@ -163,8 +163,8 @@ enum result probe_window(const struct bake_work *work, struct slab *slabs,
                          struct error *error) {
   int pages = work->lamp->slab_count;
   bool narrow = work->options->window == BAKE_WINDOW_NARROWED;
-  double(*light)[4] = malloc((size_t)pages * sizeof *light);
-  double(*before)[4] = malloc((size_t)pages * sizeof *before);
+  double(*light)[4] = calloc((size_t)pages, sizeof *light);
+  double(*before)[4] = calloc((size_t)pages, sizeof *before);
   *windows = (struct probe_windows){0};
   enum result result = light && before ? RESULT_OK : result_no_memory(error);
   if (result == RESULT_OK) result = find_light(work, slabs, light, report, error);

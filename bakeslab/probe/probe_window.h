@@ -12,8 +12,8 @@ struct probe_windows {
   char line[PROBE_WINDOW_LINE]; /* what was done, one line */
 };
 
-/* Whether a bake is asked for other windows, and, where these are only to be narrower, the small bakes
- * that take their measure are small beside it. */
+/* Whether a bake is asked for other windows, and, where these are only to be narrower, the small
+ * bakes that take their measure are small beside it. */
 bool probe_window_pays(const struct bake_work *work);
 
 /* Fits the windows of slabs[work->lamp->slab_count], by the light that small bakes with the work's

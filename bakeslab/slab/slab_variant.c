@@ -65,7 +65,7 @@ static void add_changes(const float *luminance, size_t pixels, int count, size_t
       float change = luminance[n] - luminance[n - stride];
       sum += change * change;
     }
-    if (at + 1 < (size_t)count) {
+    if (at + 1 < (size_t)count && n + stride < pixels) {
       float change = luminance[n + stride] - luminance[n];
       sum += change * change;
     }
@@ -111,7 +111,7 @@ static enum result add_noise(const struct slab_sampling *sampling, struct slab *
   for (size_t k = 0; k < pixels && squares; ++k) sum += (double)squares[k];
   bool even = !(sum > 0); /* all samples are the same */
   double scale = sampling->sample_noise / (even ? 1 : sqrt(sum / (double)pixels));
-  for (size_t k = 0; k < pixels && result == RESULT_OK; ++k) {
+  for (size_t k = 0; k < pixels && squares && result == RESULT_OK; ++k) {
     double off = scale * (even ? 1 : sqrt((double)squares[k])) * sign_of(k + 1);
     float *rgb = copy->rgb + 3 * k;
     for (int c = 0; c < 3; ++c) rgb[c] += (float)(off * colour[c]);

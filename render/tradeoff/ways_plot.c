@@ -167,7 +167,7 @@ static void print_title(const struct ways_settings *settings, char title[512]) {
 }
 
 void ways_plot(FILE *file, const struct ways_settings *settings, const struct ways *ways) {
-  struct point points[MOST];
+  struct point points[MOST] = {{0}};
   struct range cpu = {INFINITY, 0}, error = {INFINITY, 0};
   bool drawn[LINES];
   for (int k = 0; k < LINES; ++k) {

@@ -1,5 +1,6 @@
 #!/usr/bin/env bats
 # renderslab image --stats: how a picture's error is told (test_image_error.c: whether it is right).
+# shellcheck disable=SC2154 # run sets stderr
 load letter
 
 picture() { # OUT.exr OPTION...
