@@ -69,7 +69,8 @@ static void make_scene(void) {
                                        {{0.3, 0, 0}, {0, 0.2, 0.1}}};
   memcpy(all.materials, materials, sizeof materials);
   for (int k = 0; k < 12; ++k) all.texels[k] = (float)((k * 7) % 12) / 12;
-  all.texture = (struct scene_texture){.path = "texture", .picture = {2, 2, all.texels, NULL, NULL}};
+  all.texture =
+      (struct scene_texture){.path = "texture", .picture = {2, 2, all.texels, NULL, NULL}};
   all.scene = (struct scene){.position = all.position,
                              .normal = all.normal,
                              .uv = all.uv,
