@@ -44,7 +44,8 @@ static const struct argp_option options[] = {
     {"st", KEY(st), "NxM", 0, "directions at each position (default 64x64)", 1},
     {"precision", KEY(precision), CLI_PRECISIONS, 0, "number format of the samples", 1},
     {"rays", KEY(rays), "K", 0,
-     "rays a sample, on average: 1 or an even number (default: at most 8, as --noise asks for). A "
+     "rays a sample, on average: 1 or an even number (default: as --noise asks for, at most 8, or "
+     "16 with --tolerance). A "
      "sample is the mean over its 4D cell. With more than 4, a first ray looks for light "
      "everywhere: a beam as wide as a sample is found, of a thinner one the part that it fills. "
      "Others follow around what was found, and most where these are noisy",
@@ -230,7 +231,8 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
 static bool check_rays(struct bake_options *bake) {
   if (bake->centre && bake->rays == 0) bake->rays = 1;
   if (bake->rays > 0 && bake->noise == 0) bake->noise = NAN;
-  if (bake->rays == 0) bake->rays = bake->noise > 0 ? 64 : 8;
+  bool tolerance = bake->tolerance > 0 || bake->for_distance > 0; /* chooses few samples */
+  if (bake->rays == 0) bake->rays = bake->noise > 0 ? 64 : tolerance ? 16 : 8;
   if (bake->centre && bake->rays != 1) {
     cli_complain("--centre: shoots one ray a sample; leave --rays out");
     return false;
