@@ -84,7 +84,7 @@ set_up() {
 measured() {
   local way=$1 setting=$2 run=$3 row
   shift 3
-  row=rows/$lamp.$way.${setting//[^A-Za-z0-9=,-]/_}.$run
+  row=rows/$lamp.$way.${setting//[^A-Za-z0-9,-]/_}.$run # POV-Ray takes A=B for an option
   [ ! -f "$row" ] || return 0
   echo "$lamp, $way $setting, run $run" >&2
   if ! "$@" "$BUILD/$row.npy" >"$row.cpu" 2>"$row.log"; then
@@ -123,14 +123,14 @@ baked() {
   local name=$lamp/bake${1//[^A-Za-z0-9=]/_} options
   read -ra options <<<"$1"
   sed 's/<-0.5, 0.5, -0.3, 0.15>/<-0.62, 0.5, -0.3, 0.15>/' "$root/lamps/$lamp.pov" >"$lamp/$lamp.pov"
-  [ -f "$name.cpu" ] || cpu_of "$name.cpu" "$BAKESLAB" bake "$lamp/$lamp.pov" -o "$name.tif" --jobs 1 --yes -q "${options[@]}"
+  [ -f "$name.cpu" ] || cpu_of "$name.cpu" "$BAKESLAB" bake "$lamp/$lamp.pov" -o "$name.tif" --jobs 1 --yes -q "${options[@]}" || return 1
   echo "$name"
 }
 
 # Ten views; the picture of the first is compared, the seconds are their mean.
 renderslab() { # BAKE PICTURE
   local name view
-  name=$(baked "$1")
+  name=$(baked "$1") || return 1
   for view in 9 8 7 6 5 4 3 2 1 0; do
     cpu_of "$2.cpu$view" "$RENDERSLAB" image "$lamp/floor.obj" --light "$name.tif $(place)" --camera "$(cat "$lamp/camera-$view")" \
       --size 128x128 --samples "$samples" --threads 1 -q -o "${2%.npy}.exr"
@@ -140,7 +140,7 @@ renderslab() { # BAKE PICTURE
 
 include() { # 'LIGHTS BAKE' PICTURE
   local name lights=${1%% *}
-  name=$(baked "${1#* }")
+  name=$(baked "${1#* }") || return 1
   [ -f "$name.inc" ] || cpu_of "$name.inc.cpu" "$BAKESLAB" include "$name.tif" -o "$name.inc" -q
   "$RENDERSLAB" pov "$lamp/floor.obj" --light "$name.tif $(place)" --camera "$(cat "$lamp/camera-0")" --size 128x128 -q -o "$name.pov"
   povray_cpu "${2%.npy}.exr" "$name.pov" 128x128 "Declare=${lamp^}_Lights=$lights" "+L$lamp" >"$2.cpu"
