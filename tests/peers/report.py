@@ -124,7 +124,7 @@ def plot(table):
             style = f"lw 2 ps 1.3 lc rgb '{colours[way]}'"
             lines += [f"$d{number} using 1:2 with linespoints pt 7 {style} title '{name.strip('*')}'",
                       f"$d{number} using 3:2 with linespoints pt 6 dt 3 {style} notitle"]
-        text += f"set title '{lamp} (filled: one picture; open: {PICTURES})'\nset key bottom left\n"
+        text += f"set title '{lamp} (filled: one picture; open: {PICTURES})'\nset key top right\n"
         text += 'plot ' + ', '.join(lines + ["5 with lines lc 'black' dt 2 notitle", "2 with lines lc 'black' dt 2 notitle"]) + '\n'
     return text + 'unset multiplot\n'
 
