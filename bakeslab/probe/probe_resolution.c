@@ -16,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch/bake_need.h"
 #include "probe/probe_bake.h"
-#include "slab/plane.h"
 #include "slab/slab_accuracy.h"
 #include "slab/slab_resample.h"
 
@@ -102,11 +102,6 @@ static void move_plane(struct slab *slab, double distance) {
   slab->st_distance = distance;
 }
 
-static double distance_of(const struct bake_work *work, const struct slab *slab) {
-  double distance = work->options->for_distance;
-  return distance > 0 ? distance : 4 * plane_width(slab);
-}
-
 /* Steps 1 and 2 for the st planes as they are, or moved to the distance. */
 static enum result estimate_pages(const struct bake_work *work, const struct slab *slabs,
                                   bool moved, struct page_errors *errors,
@@ -124,7 +119,8 @@ static enum result estimate_pages(const struct bake_work *work, const struct sla
   if (result == RESULT_OK)
     result = probe_bake(work, geometry, &effects, probe_samples, PROBE_RAYS, &bake, report, error);
   for (int n = 0; n < pages && result == RESULT_OK; ++n)
-    result = estimate_page(&bake.pages[n], distance_of(work, &bake.pages[n]), &errors[n], error);
+    result = estimate_page(&bake.pages[n], bake_need_distance(work->options, &bake.pages[n]),
+                           &errors[n], error);
   probe_bake_free(&bake);
   free(geometry);
   return result;
@@ -186,7 +182,7 @@ static void apply(const struct bake_work *work, const struct choice *choice, boo
       slabs[n].samples[SLAB_U + k] = options->uv_free ? choice->uv : options->uv[k];
       slabs[n].samples[SLAB_S + k] = options->st_free ? choice->st : options->st[k];
     }
-    resolution->distance = fmax(resolution->distance, distance_of(work, &slabs[n]));
+    resolution->distance = fmax(resolution->distance, bake_need_distance(work->options, &slabs[n]));
   }
 }
 
