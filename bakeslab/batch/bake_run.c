@@ -25,6 +25,7 @@ struct process {
   pid_t pid;
   double start; /* seconds */
   size_t batch;
+  int times; /* that its POV-Ray started too late */
   char key[33];
   char *scratch;
   struct povray_job job; /* directory is scratch */
@@ -115,7 +116,7 @@ static void release(struct process *process, bool remove) {
 static enum result start_batch(struct run *run, struct process *process, size_t batch,
                                struct error *error) {
   const struct bake_work *work = run->work;
-  *process = (struct process){.batch = batch};
+  *process = (struct process){.batch = batch, .times = process->times};
   char *text = batch_text(work, run->round, batch, &process->job, process->key);
   enum result result =
       text ? bake_store_scratch(work->store, &process->scratch, error) : result_no_memory(error);
@@ -179,6 +180,11 @@ static enum result end_batch(struct run *run, struct process *process, int statu
   const struct bake_work *work = run->work;
   const struct bake_batch *batch = &run->round->batches[process->batch];
   enum result result = povray_finish(&process->job, status, error);
+  if (result == RESULT_BAD && povray_is_late(&process->job, &process->times)) {
+    release(process, true);
+    return start_batch(run, process, process->batch, error);
+  }
+  process->times = 0;
   if (result != RESULT_OK) lamp_source_rename(work->source, error);
   bool crashed = result == RESULT_IO;
   if (result == RESULT_OK) result = read_batch(run, process->batch, &process->job, error);
@@ -264,9 +270,9 @@ static enum result collect(struct run *run, struct bake_report *report, struct e
       continue;
     report->cpu += (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
                    1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-    report->rays += (double)run->round->batches[process->batch].rays;
     enum result result = end_batch(run, process, status, error);
     if (result != RESULT_OK) return result;
+    if (process->state == IDLE) report->rays += (double)run->round->batches[process->batch].rays;
   }
   return RESULT_OK;
 }

@@ -15,6 +15,21 @@
 #include "povray/povray_log.h"
 #include "povray/sandbox.h"
 
+enum { STARTS = 3 }; /* of a POV-Ray whose threads start late (povray_log.h) */
+
+/* Runs `program --version`; what it says is left in process->said. */
+static enum result ask_version(const char *program, struct process *process, struct error *error) {
+  const char *const words[] = {program, "--version", NULL};
+  process->words = words;
+  process->in = PROCESS_NOTHING;
+  process->out = process->errors = PROCESS_SAID;
+  enum result result = RESULT_IO;
+  for (int k = 0; k < STARTS && result == RESULT_IO && process->exit != PROCESS_MISSING; ++k)
+    result = process_run(process, error);
+  process->words = NULL;
+  return result;
+}
+
 enum result povray_find(const char *program, const volatile sig_atomic_t *stop,
                         struct povray *povray, struct error *error) {
   static const char product[] = "POV-Ray ";
@@ -26,14 +41,9 @@ enum result povray_find(const char *program, const volatile sig_atomic_t *stop,
   char *path = strchr(program, '/') ? realpath(program, NULL) : NULL;
   if (path && strlen(path) < sizeof povray->program) strcpy(povray->program, path);
   free(path);
-  const char *const words[] = {program, "--version", NULL};
-  struct process process = {.words = words,
-                            .in = PROCESS_NOTHING,
-                            .out = PROCESS_SAID,
-                            .errors = PROCESS_SAID,
-                            .stop = stop};
+  struct process process = {.stop = stop};
   struct error why;
-  enum result result = process_run(&process, &why);
+  enum result result = ask_version(program, &process, &why);
   if (result == RESULT_STOPPED)
     return result_fail(error, result, "interrupted while %s was asked for its version", program);
   if (result != RESULT_OK && process.exit == PROCESS_MISSING)
@@ -44,8 +54,9 @@ enum result povray_find(const char *program, const volatile sig_atomic_t *stop,
   const char *at = strstr(process.said, "POV-Ray 3.");
   if (!at)
     return result_fail(error, RESULT_BAD,
-                       "%s: does not say that it is POV-Ray 3.7; name another with --povray",
-                       program);
+                       "%s: does not say that it is POV-Ray 3.7%s%s%s; name another with --povray",
+                       program, result != RESULT_OK ? " (" : "",
+                       result != RESULT_OK ? why.text : "", result != RESULT_OK ? ")" : "");
   at += sizeof product - 1;
   snprintf(povray->version, sizeof povray->version, "%.*s", (int)strcspn(at, " \n"), at);
   if (strncmp(povray->version, "3.7", 3) != 0 && strncmp(povray->version, "3.8", 3) != 0)
@@ -173,13 +184,21 @@ enum result povray_finish(const struct povray_job *job, int status, struct error
   return end == 0 ? RESULT_OK : report_log(job, error);
 }
 
+bool povray_is_late(const struct povray_job *job, int *times) {
+  return ++*times < STARTS && povray_log_is_late(job->directory);
+}
+
 enum result povray_run(const struct povray *povray, const struct povray_job *job,
                        struct error *error) {
-  pid_t pid;
-  int status = 0;
-  enum result result = povray_start(povray, job, &pid, error);
-  if (result == RESULT_OK) result = process_await(pid, job->stop, &status, error);
-  return result == RESULT_OK ? povray_finish(job, status, error) : result;
+  for (int times = 0;;) {
+    pid_t pid;
+    int status = 0;
+    enum result result = povray_start(povray, job, &pid, error);
+    if (result == RESULT_OK) result = process_await(pid, job->stop, &status, error);
+    if (result != RESULT_OK) return result;
+    result = povray_finish(job, status, error);
+    if (result != RESULT_BAD || !povray_is_late(job, &times)) return result;
+  }
 }
 
 double povray_progress(const struct povray_job *job) {

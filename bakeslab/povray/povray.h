@@ -56,6 +56,10 @@ void povray_kill(pid_t pid);
  * POV-Ray's own error line, in which "scene.pov" and link names are kept. */
 enum result povray_finish(const struct povray_job *job, int status, struct error *error);
 
+/* Whether a job that failed had not begun, and may be started again: `times` counts how often, and
+ * there is an end to it. */
+bool povray_is_late(const struct povray_job *job, int *times);
+
 /* Runs a job and waits for it. */
 enum result povray_run(const struct povray *povray, const struct povray_job *job,
                        struct error *error);

@@ -82,6 +82,12 @@ void povray_log_reason(const char *directory, char *text, size_t size) {
     snprintf(text, size, "%s", reason.problem[0] ? reason.problem : reason.last);
 }
 
+bool povray_log_is_late(const char *directory) {
+  char reason[LINE];
+  povray_log_reason(directory, reason, sizeof reason);
+  return strcmp(reason, "Timed out waiting for worker thread startup") == 0;
+}
+
 double povray_statistic(const char *directory, const char *label) {
   FILE *log = open_log(directory);
   char line[LINE];

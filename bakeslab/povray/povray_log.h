@@ -11,6 +11,10 @@
  * none. */
 void povray_log_reason(const char *directory, char *reason, size_t size);
 
+/* Whether POV-Ray ended before it began: it gives its threads 3 s to start, and on a machine that
+ * stands still for as long it gives up. It may be started again. */
+bool povray_log_is_late(const char *directory);
+
 /* A count from POV-Ray's statistics, such as "Number of photons shot:"; -1 where the log has no
  * such line. */
 double povray_statistic(const char *directory, const char *label);

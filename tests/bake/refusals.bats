@@ -108,6 +108,11 @@ box { 0, 1 pigment { image_map { png "nothing.png" } } }'
   refused 1 '/nonexistent: cannot be run .No such file.*; install POV-Ray' x.tif \
     bake flat.pov -o x.tif --povray /nonexistent
   refused 1 'true: does not say that it is POV-Ray' x.tif bake flat.pov -o x.tif --povray true
+  # one that does not start is asked again, and told with its reason
+  printf '#!/bin/sh\necho asked >>asked\necho "Timed out waiting" >&2\nexit 1\n' >late
+  chmod +x late
+  refused 1 'POV-Ray 3.7 .Timed out waiting.; name' x.tif bake flat.pov -o x.tif --povray ./late
+  [ "$(wc -l <asked)" = 3 ]
   printf '#!/bin/sh\necho "POV-Ray 3.6.1" >&2\n' >old
   printf '#!/bin/sh\ncase $1 in --version) povray --version 2>&1;; *) exit 0;; esac\n' >idle
   printf '#!/bin/sh\ncase $1 in --version) povray --version 2>&1;; *) kill -SEGV $$;; esac\n' >crash
@@ -173,4 +178,25 @@ box { 0, 1 pigment { image_map { png "nothing.png" } } }'
   refused 1 'caustics: POV-Ray shot' x.tif small lamp.pov -o x.tif
   # From an extended source they start beside its centre.
   small lamp.pov -q -o x.tif --effects all
+}
+
+@test "a POV-Ray whose threads start late is started again, and told where they never do" {
+  cat >late <<'LATE'
+#!/bin/sh
+[ "$1" = --version ] && exec povray "$@"
+mktemp -p "$STARTS" >/dev/null
+[ $(($(ls "$STARTS" | wc -l) % 3)) = "$TURN" ] && exec povray "$@"
+echo 'Timed out waiting for worker thread startup' >&2
+exit 1
+LATE
+  chmod +x late
+  mkdir starts
+  small flat.pov -o right.tif --jobs 1
+  STARTS=$PWD/starts TURN=0 small flat.pov -o x.tif --jobs 1 --povray ./late
+  same x.tif right.tif
+  [ "$(find starts -type f | wc -l)" -ge 6 ] # the trial run's three, and three a batch
+  rm -r x.tif starts/*
+  STARTS=$PWD/starts TURN=3 refused 1 'flat.pov: POV-Ray: Timed out waiting' x.tif \
+    small flat.pov -o x.tif --povray ./late
+  [ "$(find starts -type f | wc -l)" = 3 ]
 }
