@@ -10,13 +10,10 @@ static const int reach[SLAB_AXES] = {1, 1, 2, 2};
  * none. */
 static bool step_to(const struct slab *slab, const int at[SLAB_AXES], int axis, int steps,
                     int beside[SLAB_AXES], size_t *sample) {
-  const int *n = slab->samples;
   memcpy(beside, at, SLAB_AXES * sizeof *beside);
   beside[axis] += steps;
-  if (beside[axis] < 0 || beside[axis] >= n[axis]) return false;
-  size_t row = (size_t)beside[SLAB_V] * (size_t)n[SLAB_T] + (size_t)beside[SLAB_T];
-  *sample = row * (size_t)slab_width(slab) + (size_t)beside[SLAB_U] * (size_t)n[SLAB_S] +
-            (size_t)beside[SLAB_S];
+  if (beside[axis] < 0 || beside[axis] >= slab->samples[axis]) return false;
+  *sample = slab_pixel(slab, beside);
   return true;
 }
 

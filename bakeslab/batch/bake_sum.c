@@ -67,10 +67,7 @@ static double cell_weight(const struct slab *slab, const int at[SLAB_AXES]) {
 static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int pass,
                     const float *rgb) {
   const struct slab *slab = &sum->tiles->slabs[page];
-  const int *n = slab->samples;
-  size_t row = (size_t)at[SLAB_V] * (size_t)n[SLAB_T] + (size_t)at[SLAB_T];
-  size_t column = (size_t)at[SLAB_U] * (size_t)n[SLAB_S] + (size_t)at[SLAB_S];
-  struct cell *cell = &sum->pages[page][row * (size_t)slab_width(slab) + column];
+  struct cell *cell = &sum->pages[page][slab_pixel(slab, at)];
   double y = slab_luminance(rgb), before = 0; /* of the pair, without this ray */
   sum->brightest = fmax(sum->brightest, y);
   if (pass == BAKE_SEARCH) {

@@ -169,10 +169,14 @@ int slab_height(const struct slab *slab) {
   return slab->samples[SLAB_V] * slab->samples[SLAB_T];
 }
 
+size_t slab_pixel(const struct slab *slab, const int at[SLAB_AXES]) {
+  size_t row = (size_t)(at[SLAB_V] * slab->samples[SLAB_T] + at[SLAB_T]);
+  size_t column = (size_t)(at[SLAB_U] * slab->samples[SLAB_S] + at[SLAB_S]);
+  return row * (size_t)slab_width(slab) + column;
+}
+
 float *slab_at(const struct slab *slab, int i, int j, int k, int l) {
-  size_t row = (size_t)(j * slab->samples[SLAB_T] + l);
-  size_t column = (size_t)(i * slab->samples[SLAB_S] + k);
-  return slab->rgb + 3 * (row * (size_t)slab_width(slab) + column);
+  return slab->rgb + 3 * slab_pixel(slab, (const int[SLAB_AXES]){i, j, k, l});
 }
 
 void slab_locate(const struct slab *slab, size_t pixel, int at[SLAB_AXES]) {

@@ -67,7 +67,8 @@ bool slab_is_lit(const struct slab *slab);
 /* The three floats of one sample. */
 float *slab_at(const struct slab *slab, int i, int j, int k, int l);
 
-/* The (i, j, k, l) of the raster's pixel number `pixel`, row by row. */
+/* The number of a sample's pixel in the raster, row by row; and the (i, j, k, l) of a pixel. */
+size_t slab_pixel(const struct slab *slab, const int at[SLAB_AXES]);
 void slab_locate(const struct slab *slab, size_t pixel, int at[SLAB_AXES]);
 
 /* Grid position of sample `index` along an axis: a or b in lamp units from the
