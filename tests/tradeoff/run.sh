@@ -11,7 +11,7 @@ ways() {
   local lamp=$1 scene=$2
   echo "$lamp, $scene"
   "$RENDERSLAB" tradeoff "$scene.obj" --light "$root/lamps/$lamp.pov ${places[$scene]} toward=0,0,0 up=0,0,1" \
-    --camera "${cameras[$scene]}" --size 320x240 --errors 0.2,0.1,0.05,0.02 --bakes bakes \
+    --camera "${cameras[$scene]}" --size 320x240 --errors 0.5,0.2,0.1,0.05,0.02 --bakes bakes \
     -o "$lamp-$scene.tsv" --plot "$lamp-$scene.png" | tee "$lamp-$scene.txt"
 }
 
