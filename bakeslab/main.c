@@ -8,6 +8,7 @@ static const struct cli_command commands[] = {
     {"check", cmd_check, "validate a slab; warn when it misses light, loses it or counts it twice"},
     {"lookup", cmd_lookup, "radiance of rays read from stdin"},
     {"projector", cmd_projector, "make the slab of a slide projector from an image"},
+    {"import", cmd_import, "make a slab from light that was measured, or simulated elsewhere"},
     {"convert", cmd_convert, "change the container, precision or resolution"},
     {"diff", cmd_diff, "compare two slabs"},
     {"include", cmd_include, "write a POV-Ray include that lights a scene"},

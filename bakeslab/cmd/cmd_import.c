@@ -1,0 +1,117 @@
+/* cmd_import.c - bakeslab import: light that was measured, or simulated elsewhere, as a slab. */
+#include <stdlib.h>
+
+#include "base/output.h"
+#include "cmd/slab_options.h"
+#include "file/slab_file.h"
+#include "import/import.h"
+
+struct arguments {
+  const char **files; /* grows; owned */
+  int file_count;
+  const char *output;
+  enum slab_precision precision;
+  struct import_wish wish;
+};
+
+#define ARGUMENT(member) offsetof(struct arguments, member)
+#define KEY(member) VALUE_KEY(struct arguments, member)
+
+static const struct argp_option options[] = {
+    {"output", 'o', "SLAB", 0,
+     "The slab to write: .tif (LogLuv unless --precision is given) or .exr", 1},
+    {"precision", KEY(precision), CLI_PRECISIONS, 0, "Number format of the samples", 1},
+    {"uv", KEY(wish.uv), "NxM", 0, "Positions on each page", 2},
+    {"st", KEY(wish.st), "NxM", 0, "Directions of each position", 2},
+    {"tolerance", KEY(wish.tolerance), "T", 0,
+     "Choose the number of samples so that the error is at most T (0.02 is 2 %)", 2},
+    {"name", 'n', "NAME", 0, "The lamp's name (default: that of the first file)", 2},
+    {"lumens", KEY(wish.lumens), "X", 0, "Photometric files: rescale the light to a flux of X lm",
+     3},
+    {"kelvin", KEY(wish.kelvin), "K", 0,
+     "Photometric files: the colour of a black body of K kelvin (default: white)", 3},
+    {"turn", KEY(wish.turn), "90|180|270", 0,
+     "Photometric files: turn the distribution about the vertical, from C0 towards C90, where a "
+     "maker laid it across the opening",
+     3},
+    {0}};
+
+static const char doc[] =
+    "Makes a light slab from light that was measured, or simulated elsewhere. The kind of the "
+    "files is found from their content: IES LM-63, EULUMDAT."
+    "\v"
+    "Photometric files (IES LM-63 of 1986 to 2019, EULUMDAT) give a slab in metres, in cd/m2. "
+    "Gamma 0 is -y, C0 is +x, C90 is +z.\n"
+    "\n"
+    "Examples:\n"
+    "  bakeslab import downlight.ies -o downlight.tif\n"
+    "  bakeslab import trough.ldt -o trough.tif --turn 90 --kelvin 4000";
+
+static const struct value values[] = {
+    {'o', VALUE_TEXT, ARGUMENT(output), 0, 0},
+    {KEY(precision), VALUE_WORD, ARGUMENT(precision), SLAB_PRECISION_LOGLUV, 0},
+    {KEY(wish.uv), VALUE_SIZE, ARGUMENT(wish.uv), 0, 0},
+    {KEY(wish.st), VALUE_SIZE, ARGUMENT(wish.st), 0, 0},
+    {KEY(wish.tolerance), VALUE_POSITIVE, ARGUMENT(wish.tolerance), 0, 0},
+    {'n', VALUE_TEXT, ARGUMENT(wish.name), 0, 0},
+    {KEY(wish.lumens), VALUE_POSITIVE, ARGUMENT(wish.lumens), 0, 0},
+    {KEY(wish.kelvin), VALUE_REAL, ARGUMENT(wish.kelvin), 1000, 25000},
+    {KEY(wish.turn), VALUE_WORD, ARGUMENT(wish.turn), 1, 0},
+    {0}};
+
+static void add_file(struct arguments *arguments, const char *file) {
+  size_t count = (size_t)arguments->file_count + 1;
+  const char **files = realloc(arguments->files, count * sizeof *files);
+  if (!files) cli_out_of_memory();
+  arguments->files = files;
+  files[arguments->file_count++] = file;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  switch (key) {
+  case ARGP_KEY_ARG:
+    add_file(arguments, text);
+    return 0;
+  case ARGP_KEY_NO_ARGS:
+    argp_error(state, "no file given");
+    return 0;
+  case ARGP_KEY_SUCCESS:
+    if (!arguments->output) argp_error(state, "no output given: -o SLAB");
+    return 0;
+  default:
+    return values_take(values, options, key, text, arguments, state);
+  }
+}
+
+static void tell(const char *line) {
+  cli_note("%s", line);
+}
+
+static enum result run(void *input, struct error *error) {
+  struct arguments *arguments = input;
+  struct warnings notes = {.tell = tell};
+  struct import_wish *wish = &arguments->wish;
+  struct import_light light = {0};
+  wish->files = arguments->files;
+  wish->file_count = arguments->file_count;
+  wish->notes = &notes;
+  wish->turn *= 90;
+  enum result result = output_check(&arguments->output, 1, wish->files, wish->file_count, error);
+  if (result == RESULT_OK)
+    result = slab_file_check_target(arguments->output, arguments->precision, error);
+  if (result == RESULT_OK) result = import_files(wish, cli_command_line(), &light, error);
+  if (result == RESULT_OK)
+    result =
+        slab_file_write(arguments->output, light.slabs, light.count, arguments->precision, error);
+  import_free(&light);
+  return result;
+}
+
+int cmd_import(int argc, char **argv) {
+  static const struct argp argp = {options, parse, "FILE... -o SLAB", doc, cli_options, NULL, NULL};
+  struct arguments arguments = {0};
+  int status = cli_run(&argp, argc, argv, run, &arguments);
+  free(arguments.files);
+  return status;
+}

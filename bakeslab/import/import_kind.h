@@ -1,0 +1,55 @@
+/* import_kind.h - what each kind of file that can be imported has: a name, how it is known, and
+ * the way from it to slabs. import.c holds the table of kinds. */
+#ifndef IMPORT_KIND_H
+#define IMPORT_KIND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/warnings.h"
+#include "slab/slab.h"
+
+enum { IMPORT_HEAD = 65536 }; /* bytes of a file by which its kind is known, at most */
+
+/* What the user wants. Numbers that are 0 were not given. */
+struct import_wish {
+  const char *const *files;
+  int file_count;
+  int uv[2], st[2]; /* samples of each page */
+  double tolerance; /* relative error that chooses them */
+  double lumens;    /* photometric files: rescales the flux */
+  double kelvin;    /* photometric files: colour, of a black body */
+  int turn;         /* photometric files: turns the distribution about the vertical, degrees */
+  const char *name; /* of the slabs; NULL: from the first file's name */
+  struct warnings *notes; /* what the user may not expect; told as it comes */
+};
+
+/* What provenance.import tells (import_provenance.h). */
+struct import_story {
+  char assumptions[400]; /* one sentence */
+  double flux_in;        /* lm or W: what the file holds */
+  double flux_out;       /* what the slabs give, as slab_flux_metric */
+  double error;          /* relative RMS error of the samples, weighted as they shine */
+  char error_is[200];    /* how that was found: one sentence */
+  double sample_error;   /* RMS error of the samples' luminance, in their unit; NAN: not known */
+  double flux_error;     /* relative error of the flux; NAN: not known */
+};
+
+/* The result: freed by import_free (import.h). */
+struct import_light {
+  struct slab *slabs; /* `count` of them, owned; names and provenance are set by import.c */
+  int count;
+  struct import_story story;
+};
+
+struct import_kind {
+  const char *name; /* as provenance.import says */
+  /* Whether a file is of this kind, by its first `size` bytes (up to IMPORT_HEAD; a zero
+   * follows them) and, where they leave it open, its path. */
+  bool (*is)(const char *head, size_t size, const char *path);
+  /* Reads wish->files. Messages of failures name file and line or byte. */
+  enum result (*slabs)(const struct import_wish *wish, struct import_light *light,
+                       struct error *error);
+};
+
+#endif

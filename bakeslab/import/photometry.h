@@ -1,0 +1,62 @@
+/* photometry.h - a lamp as its maker measured it: luminous intensity by direction, and the opening
+ * that the light comes from. Read from IES LM-63 (ies.h) and EULUMDAT (eulumdat.h) files.
+ *
+ * Frame: lamp space in metres, the opening's middle at the origin. Gamma 0 is -y (down), gamma 180
+ * is +y; C0 is +x and C90 +z.
+ *   C, gamma:           d = (sin gamma cos C, -cos gamma, sin gamma sin C)
+ * Tables about other axes keep their angles; H = V = 0 is -y, H = 90 is +x and V = 90 is +z:
+ *   B (axis x; V turns about it):  d = (sin H, -cos H cos V, cos H sin V)
+ *   A (axis z; H turns about it):  d = (cos V sin H, -cos V cos H, sin V)
+ * Intensity is candela of the whole luminaire: the lamps' lumens, multipliers and ballast factors
+ * are in. It is bilinear in the two angles between the table's, and 0 outside of them. */
+#ifndef PHOTOMETRY_H
+#define PHOTOMETRY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/result.h"
+#include "base/warnings.h"
+
+enum photometry_type { PHOTOMETRY_A = 'A', PHOTOMETRY_B = 'B', PHOTOMETRY_C = 'C' };
+
+/* What the light comes from: convex, centred on the origin. */
+enum photometry_shape {
+  PHOTOMETRY_POINT,
+  PHOTOMETRY_BOX,      /* a size of 0: a rectangle */
+  PHOTOMETRY_CYLINDER, /* along `axis`, of elliptical cross-section; 0 along it: a disc */
+  PHOTOMETRY_ELLIPSOID
+};
+
+enum { PHOTOMETRY_LABEL = 200 };
+
+struct photometry {
+  enum photometry_type type;
+  int planes;      /* of C, or of H: how many */
+  int rows;        /* of gamma, or of V */
+  double *plane;   /* degrees, ascending, with all symmetries unfolded: C from 0 to 360, 360
+                      being 0 again, or a 0 alone for a lamp that is alike all around; H
+                      within -90..90; owned */
+  double *row;     /* degrees, ascending: gamma within 0..180, V within -90..90; owned */
+  double *candela; /* [plane * rows + row]; may be negative; owned */
+  enum photometry_shape shape;
+  int axis;       /* of a cylinder: 0, 1, 2 for x, y, z */
+  double size[3]; /* full sizes along x, y, z, metres */
+  double lumens;  /* of all lamps, as the file states; NAN: it does not (absolute photometry) */
+  char label[PHOTOMETRY_LABEL]; /* maker, number and name as the file says, UTF-8, one line */
+};
+
+void photometry_free(struct photometry *lamp); /* zeroed ones allowed */
+
+/* Reads a file of either kind, found by its content. Folders of TILT files are the file's own.
+ * `notes` receives what the user may not expect. Failures: "FILE: line N: ...". */
+enum result photometry_read(const char *path, struct photometry *lamp, struct warnings *notes,
+                            struct error *error);
+
+/* Intensity towards a direction of any length but 0. */
+double photometry_candela(const struct photometry *lamp, const double direction[3]);
+
+/* The table's own integral over all directions, lm: exact for the interpolated intensity. */
+double photometry_flux(const struct photometry *lamp);
+
+#endif
