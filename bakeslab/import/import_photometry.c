@@ -1,21 +1,16 @@
 #include "import/import_photometry.h"
 
-#include <string.h>
+#include "import/eulumdat.h"
+#include "import/ies.h"
 
-/* A line that starts with TILT=: all files since 1986 have it. */
 static bool is_ies(const char *head, size_t size, const char *path) {
   (void)path;
-  if (size >= 5 && !memcmp(head, "IESNA", 5)) return true;
-  for (const char *at = head; (at = memchr(at, 'T', size - (size_t)(at - head))); ++at)
-    if (!strncmp(at, "TILT=", 5) && (at == head || at[-1] == '\n' || at[-1] == '\r')) return true;
-  return false;
+  return ies_is(head, size);
 }
 
 static bool is_eulumdat(const char *head, size_t size, const char *path) {
-  (void)head;
-  (void)size;
-  size_t length = strlen(path);
-  return length > 4 && !strcmp(path + length - 4, ".ldt");
+  (void)path;
+  return eulumdat_is(head, size);
 }
 
 static enum result read_slabs(const struct import_wish *wish, struct import_light *light,
