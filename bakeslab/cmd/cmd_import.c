@@ -55,7 +55,7 @@ static const struct value values[] = {
     {KEY(wish.tolerance), VALUE_POSITIVE, ARGUMENT(wish.tolerance), 0, 0},
     {'n', VALUE_TEXT, ARGUMENT(wish.name), 0, 0},
     {KEY(wish.lumens), VALUE_POSITIVE, ARGUMENT(wish.lumens), 0, 0},
-    {KEY(wish.kelvin), VALUE_REAL, ARGUMENT(wish.kelvin), 1000, 25000},
+    {KEY(wish.kelvin), VALUE_REAL, ARGUMENT(wish.kelvin), 1000, 15000},
     {KEY(wish.turn), VALUE_WORD, ARGUMENT(wish.turn), 1, 0},
     {0}};
 

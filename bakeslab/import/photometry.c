@@ -19,10 +19,12 @@ enum result photometry_alloc(struct photometry *lamp, struct error *error) {
   return lamp->plane && lamp->row && lamp->candela ? RESULT_OK : result_no_memory(error);
 }
 
+/* Of the turn by quarters. */
+static const int cosines[4] = {1, 0, -1, 0}, sines[4] = {0, 1, 0, -1};
+
 /* The angles of a direction: the plane's, and that within it; degrees. */
 static void angles(const struct photometry *lamp, const double d[3], double *plane, double *row) {
-  static const int cosine[4] = {1, 0, -1, 0}, sine[4] = {0, 1, 0, -1};
-  int c = cosine[lamp->turn & 3], s = sine[lamp->turn & 3];
+  int c = cosines[lamp->turn & 3], s = sines[lamp->turn & 3];
   double x = c * d[0] + s * d[2], y = d[1], z = c * d[2] - s * d[0];
   switch (lamp->type) {
   case PHOTOMETRY_C:
@@ -39,6 +41,26 @@ static void angles(const struct photometry *lamp, const double d[3], double *pla
     *row = atan2(y, hypot(x, z)) * degrees;
     return;
   }
+}
+
+void photometry_table_direction(const struct photometry *lamp, size_t entry, double direction[3]) {
+  double plane = lamp->plane[entry / (size_t)lamp->rows] / degrees;
+  double row = lamp->row[entry % (size_t)lamp->rows] / degrees, x = 0, y = 0, z = 0;
+  int c = cosines[lamp->turn & 3], s = sines[lamp->turn & 3];
+  switch (lamp->type) {
+  case PHOTOMETRY_C:
+    x = sin(row) * cos(plane), y = -cos(row), z = sin(row) * sin(plane);
+    break;
+  case PHOTOMETRY_B:
+    x = cos(plane) * sin(row), y = -cos(plane) * cos(row), z = -sin(plane);
+    break;
+  case PHOTOMETRY_A:
+    x = cos(row) * cos(plane), y = sin(row), z = -cos(row) * sin(plane);
+    break;
+  }
+  direction[0] = c * x - s * z;
+  direction[1] = y;
+  direction[2] = c * z + s * x;
 }
 
 /* The cell of ascending values around x, and where in it, 0 to 1. False outside. */

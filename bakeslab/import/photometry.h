@@ -62,6 +62,9 @@ enum result photometry_alloc(struct photometry *lamp, struct error *error);
 /* Intensity towards a direction of any length but 0. */
 double photometry_candela(const struct photometry *lamp, const double direction[3]);
 
+/* The direction (unit) of the table's entry number plane * rows + row. */
+void photometry_table_direction(const struct photometry *lamp, size_t entry, double direction[3]);
+
 /* The table's own integral over all directions, lm: exact for the interpolated intensity. */
 double photometry_flux(const struct photometry *lamp);
 
