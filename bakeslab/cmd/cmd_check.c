@@ -3,10 +3,12 @@
  * slab's own error (slab_accuracy.h). */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
+#include "file/slab_source.h"
 #include "slab/flux_box.h"
 #include "slab/plane.h"
 #include "slab/slab_accuracy.h"
@@ -168,6 +170,15 @@ static enum result tell_of_bake(const char *path, const struct slab *slab, int *
   return result;
 }
 
+/* Where imported light comes from, once a file. */
+static enum result tell_source(const char *path, const struct slab *slab, struct error *error) {
+  char *line;
+  enum result result = slab_source_line(slab, &line, error);
+  if (line) printf("%s: imported from %s\n", path, line);
+  free(line);
+  return result;
+}
+
 static const struct slab *page_of(const void *file, int page) {
   return slab_file_page(file, page);
 }
@@ -203,6 +214,7 @@ static enum result check_file(const char *path, bool errors, int *warnings, stru
   for (int n = 0; result == RESULT_OK && n < slab_file_pages(file); ++n) {
     struct page page = {.path = path, .file = file, .number = n, .warnings = warnings};
     result = slab_file_load(file, n, &page.slab, error);
+    if (result == RESULT_OK && n == 0) result = tell_source(path, &page.slab, error);
     if (result == RESULT_OK && n == 0) result = tell_of_bake(path, &page.slab, warnings, error);
     if (result == RESULT_OK) lit |= slab_is_lit(&page.slab);
     if (result == RESULT_OK) result = check_page(&page, errors, error);
@@ -232,7 +244,8 @@ static const char doc[] =
     "longer edge) away, by 1 % more than the uncertainty of the latter, a sum over some "
     "10^6 rays. It counts light twice where more than 1 % of the flux of a page leaves "
     "through another page's aperture too. What the bake warned of is told again, that a "
-    "lossy compression changed the samples, and that a slab gives no light at all.\n\n"
+    "lossy compression changed the samples, and that a slab gives no light at all; of imported "
+    "light its source, what was assumed, and the error of its samples.\n\n"
     "--error estimates the error of irradiance on a surface that faces the slab, against "
     "the lamp itself, at 1, 4 and 16 apertures (longer edges of the rectangle; lamp units "
     "in brackets): the RMS of the error over the RMS of the irradiance. The estimate needs "

@@ -14,6 +14,7 @@
 #include "file/json_text.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
+#include "file/slab_source.h"
 #include "slab/slab_accuracy.h"
 
 struct options {
@@ -193,6 +194,14 @@ static void print_page(const char *path, const struct page *page, int number, in
   if (how) printf("  %-14s%s\n", "samples are", how);
 }
 
+static enum result print_source(const struct slab *slab, struct error *error) {
+  char *line;
+  enum result result = slab_source_line(slab, &line, error);
+  if (line) printf("  %-14s%s\n", "imported from", line);
+  free(line);
+  return result;
+}
+
 static enum result print_provenance(const struct page *page, struct error *error) {
   json_t *provenance = json_object_get(page->root, "provenance"), *value;
   const char *key;
@@ -218,7 +227,8 @@ static enum result run(void *input, struct error *error) {
   if (result == RESULT_OK && options->json) result = print_json(options->path, pages, count, error);
   for (int n = 0; n < count && result == RESULT_OK && !options->json; ++n) {
     print_page(options->path, &pages[n], n + 1, count);
-    result = print_provenance(&pages[n], error);
+    result = print_source(&pages[n].slab, error);
+    if (result == RESULT_OK) result = print_provenance(&pages[n], error);
   }
   for (int n = 0; pages && n < count; ++n) {
     json_decref(pages[n].root);

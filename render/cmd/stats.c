@@ -11,6 +11,7 @@
 #include "cli/cli.h"
 #include "file/json_text.h"
 #include "file/slab_json.h"
+#include "file/slab_source.h"
 
 struct stats stats_start(void) {
   struct stats stats = {.mark = json_mark()};
@@ -100,12 +101,32 @@ static enum result set_accuracy(json_t *object, const struct world *world, struc
   return result;
 }
 
+/* Where the light of lamps that were imported comes from. */
+static enum result set_sources(json_t *object, const struct world *world, struct error *error) {
+  enum result result = RESULT_OK;
+  json_t *list = json_array();
+  for (int l = 0; l < world->light_count && result == RESULT_OK; ++l) {
+    const struct light *light = &world->lights[l];
+    json_t *source;
+    result = slab_source(&light->pages[0].slab, &source, error);
+    if (!source) continue;
+    json_t *told = json_pack("{s:o}", "light", json_any_string(light->path));
+    json_object_update(told, source);
+    json_array_append_new(list, told);
+    json_decref(source);
+  }
+  if (json_array_size(list) > 0) json_object_set(object, "imported", list);
+  json_decref(list);
+  return result;
+}
+
 static enum result write(struct stats *stats, const struct world *world, struct error *error) {
   char *text = NULL;
   stats_phase(stats, NULL);
   json_object_set_new(stats->seconds, "total", json_real(stats->total));
   json_t *object = object_of(stats, &world->options);
   enum result result = set_accuracy(object, world, error);
+  if (result == RESULT_OK) result = set_sources(object, world, error);
   if (result == RESULT_OK)
     result = json_text(object, stats->mark, JSON_INDENT(2) | JSON_REAL_PRECISION(6), &text, error);
   if (result == RESULT_OK) {

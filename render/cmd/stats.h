@@ -7,6 +7,8 @@
  *   effects: {name: {simulated: true or false, reason: text}, ...}
  *   slab_errors: [{light, page, apertures, about}, ...]: relative RMS errors that the slabs
  *   themselves have at some distances (slab_accuracy.h); digits below them mean nothing
+ *   imported: [{light, source, kind, assumptions, flux_in, flux_out, error, error_is}, ...], of
+ *   lamps whose light was imported (slab_source.h); left out where there are none
  *   error: {noise, resolution, logluv, sum, shadows, all}, of a picture (image_error.h): RMS over
  *   mean; null where it is not known; `all` is that of what is known
  *   error_estimate: largest predicted relative error of a receiver's matte light; null where
