@@ -80,7 +80,7 @@ static enum result next_whole(struct photometry_text *text, const char *what, in
                               int *number, struct error *error) {
   double value = 0;
   enum result result = next_number(text, what, low, high, &value, error);
-  *number = (int)value;
+  *number = result == RESULT_OK ? (int)value : 0;
   if (result == RESULT_OK && value != *number)
     result = result_fail(error, RESULT_BAD, "line %d: %s is %g, but must be a whole number",
                          text->line - 1, what, value);
@@ -118,7 +118,7 @@ static enum result read_head(struct photometry_text *text, struct head *head,
   if (result == RESULT_OK)
     result = next_number(text, "the distance of C planes", 0, 360, &step, error);
   if (result == RESULT_OK)
-    result = next_whole(text, "the number of intensities in a plane", 1, PHOTOMETRY_MOST_ANGLES,
+    result = next_whole(text, "the number of intensities in a plane", 2, PHOTOMETRY_MOST_ANGLES,
                         &head->rows, error);
   if (result == RESULT_OK)
     result = next_number(text, "the distance of intensities", 0, 180, &step, error);

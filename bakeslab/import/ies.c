@@ -71,7 +71,7 @@ static enum result read_labels(struct photometry_text *text, struct photometry *
       *tilt_length = length - 5;
       return RESULT_OK;
     }
-    if (*line == '[')
+    if (length > 0 && *line == '[')
       read_label(lamp, line, length);
     else if (first && head->year == 1986)
       photometry_text_label(lamp, line, length);
@@ -167,7 +167,7 @@ static enum result read_head(struct photometry_text *text, struct head *head, st
   if (result == RESULT_OK)
     result = photometry_text_number(text, "the candela multiplier", &head->multiplier, error);
   if (result == RESULT_OK)
-    result = photometry_text_whole(text, "the number of vertical angles", 1, PHOTOMETRY_MOST_ANGLES,
+    result = photometry_text_whole(text, "the number of vertical angles", 2, PHOTOMETRY_MOST_ANGLES,
                                    &head->rows, error);
   if (result == RESULT_OK)
     result = photometry_text_whole(text, "the number of horizontal angles", 1,
@@ -243,6 +243,10 @@ static enum result read_table(struct photometry_text *text, const struct head *h
     result = photometry_text_ascending(text, "horizontal angles", planes, plane_count, -90,
                                        c ? 360 : 90, error);
   }
+  if (result == RESULT_OK && !c && plane_count < 2)
+    result = result_fail(error, RESULT_BAD,
+                         "line %d: a table of type A or B has at least two horizontal angles",
+                         text->line);
   if (result == RESULT_OK && c) result = find_symmetry(text, planes, plane_count, &symmetry, error);
   if (result == RESULT_OK)
     result = photometry_text_numbers(text, "candela values", count, candela, error);
