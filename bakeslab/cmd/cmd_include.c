@@ -8,9 +8,10 @@
 #include "base/sdl.h"
 #include "cmd/slab_options.h"
 #include "file/slab_exr.h"
-#include "file/slab_file.h"
 #include "file/slab_json.h"
+#include "file/slab_source.h"
 #include "include/include_choose.h"
+#include "include/include_source.h"
 #include "include/text/include_own_error.h"
 #include "lamp/housing.h"
 
@@ -166,34 +167,36 @@ static enum result write_files(const struct include_choice *choice, const struct
   return result;
 }
 
-static enum result choose(const struct arguments *arguments, const struct slab *slabs, int count,
+static enum result choose(const struct include_source *source, struct include_wish *wish,
                           struct include_choice *choice, struct error *error) {
   struct progress progress;
-  const struct include_wish wish = {.modes = arguments->modes,
-                                    .tolerance = arguments->tolerance,
-                                    .distance = arguments->distance,
-                                    .progress = &progress};
+  wish->progress = &progress;
   progress_start(&progress, cli_quiet(), 0);
-  enum result result = include_choose(slabs, count, &wish, choice, error);
+  enum result result =
+      include_choose(source->light.slabs, source->light.count, wish, choice, error);
   progress_end(&progress);
   return result;
 }
 
 /* The lamp's name in POV-Ray, the slab's unless --name gives another, and its lights. */
-static enum result make_lights(const struct arguments *arguments, const struct slab *slabs,
-                               int count, char name[SDL_IDENTIFIER_SIZE],
+static enum result make_lights(const struct arguments *arguments,
+                               const struct include_source *source, char name[SDL_IDENTIFIER_SIZE],
                                struct include_choice *choice, struct error *error) {
+  const struct slab *slabs = source->light.slabs;
   const char *given = arguments->name ? arguments->name : slabs[0].name, *advice = "";
-  int modes = arguments->modes, lights = arguments->lights;
-  double distance = arguments->distance;
-  if (modes == INCLUDE_CLUSTER && !lights) lights = DEFAULT_CLUSTER;
+  int lights = arguments->lights;
+  struct include_wish wish = {.modes = arguments->modes,
+                              .tolerance = arguments->tolerance,
+                              .distance = arguments->distance,
+                              .table = source->has_table ? &source->table : NULL};
+  if (wish.modes == INCLUDE_CLUSTER && !lights) lights = DEFAULT_CLUSTER;
   enum result result = sdl_capitalise(given, name, error);
   if (result != RESULT_OK)
     advice = "; give one with --name";
   else if (arguments->tolerance > 0)
-    result = choose(arguments, slabs, count, choice, error);
+    result = choose(source, &wish, choice, error);
   else
-    result = include_make(slabs, count, (enum include_mode)modes, lights, distance, choice, error);
+    result = include_make(slabs, source->light.count, &wish, lights, choice, error);
   if (result == RESULT_OK) return result;
   struct error reason = *error;
   return result_fail(error, result, "%s: %s%s", arguments->slab, reason.text, advice);
@@ -204,10 +207,11 @@ static enum result write_include(const struct arguments *arguments, const struct
                                  int count, const char *name, const struct include_choice *choice,
                                  const char *image, struct error *error) {
   json_t *root = NULL;
-  char *own_error = NULL;
+  char *own_error = NULL, *source = NULL;
   enum result result =
       include_own_error(slabs, count, include_choice_error, choice, &own_error, error);
   if (result == RESULT_OK) result = slab_json_root(&slabs[0], &root, error);
+  if (result == RESULT_OK) result = slab_source_line(&slabs[0], &source, error);
   if (result != RESULT_OK) goto out;
   const char *housing =
       json_string_value(json_object_get(json_object_get(root, "provenance"), "housing"));
@@ -225,18 +229,20 @@ static enum result write_include(const struct arguments *arguments, const struct
                               .own_error = own_error,
                               .housing = harmless ? housing : NULL,
                               .housing_left_out = housing && !harmless,
+                              .source = source,
                               .chosen = *choice->why ? choice->why : NULL};
   result = write_files(choice, &text, arguments->output, image, error);
 out:
   json_decref(root);
   free(own_error);
+  free(source);
   return result;
 }
 
 static enum result run(void *input, struct error *error) {
   const struct arguments *arguments = input;
-  struct slab *slabs = NULL;
-  int count = 0;
+  struct include_source source = {0};
+  struct warnings notes = {0};
   struct include_choice choice = {0};
   char name[SDL_IDENTIFIER_SIZE], *image = strdup(arguments->output);
   enum result result = RESULT_OK;
@@ -248,13 +254,17 @@ static enum result run(void *input, struct error *error) {
     const char *outputs[2] = {arguments->output, image};
     result = output_check(outputs, 2, &arguments->slab, 1, error);
   }
-  if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
-  if (result == RESULT_OK) result = make_lights(arguments, slabs, count, name, &choice, error);
   if (result == RESULT_OK)
-    result = write_include(arguments, slabs, count, name, &choice, image, error);
+    result = include_source_load(arguments->slab, cli_command_line(), &notes, &source, error);
+  for (int k = 0; k < warnings_kept(&notes); ++k)
+    cli_note("%s: note: %s", arguments->slab, notes.lines[k]);
+  if (result == RESULT_OK) result = make_lights(arguments, &source, name, &choice, error);
+  if (result == RESULT_OK)
+    result = write_include(arguments, source.light.slabs, source.light.count, name, &choice, image,
+                           error);
   free(image);
   include_choice_free(&choice);
-  slab_file_free_all(slabs, count);
+  include_source_free(&source);
   return result;
 }
 

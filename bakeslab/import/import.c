@@ -42,6 +42,11 @@ static enum result find_kind(const char *path, const struct import_kind **kind,
   return result;
 }
 
+const struct import_kind *import_kind_of(const char *path) {
+  const struct import_kind *kind;
+  return find_kind(path, &kind, NULL) == RESULT_OK ? kind : NULL;
+}
+
 /* All files must be of one kind. */
 static enum result find_common_kind(const struct import_wish *wish, const struct import_kind **kind,
                                     struct error *error) {

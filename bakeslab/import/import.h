@@ -8,6 +8,9 @@
 /* The kinds that are known by their content, as words for people. */
 #define IMPORT_KINDS "IES LM-63, EULUMDAT"
 
+/* The kind of a file, by its content; NULL where it is none of them, or cannot be read. */
+const struct import_kind *import_kind_of(const char *path);
+
 /* Imports the files, all of one kind. `command` is what provenance says. Refuses a file of no kind,
  * and files of several. After a failure the light is empty. */
 enum result import_files(const struct import_wish *wish, const char *command,

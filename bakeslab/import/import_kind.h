@@ -47,6 +47,7 @@ struct import_kind {
   /* Whether a file is of this kind, by its first `size` bytes (up to IMPORT_HEAD; a zero
    * follows them) and, where they leave it open, its path. */
   bool (*is)(const char *head, size_t size, const char *path);
+  bool photometric; /* photometry_read (photometry.h) reads it, too */
   /* Reads wish->files. Messages of failures name file and line or byte. */
   enum result (*slabs)(const struct import_wish *wish, struct import_light *light,
                        struct error *error);

@@ -186,7 +186,7 @@ static enum result make_offers(const struct slab *slabs, int count, const struct
   double distance = wish->distance;
   enum result result = RESULT_OK;
   if (wish->modes & INCLUDE_POINT) {
-    result = point_make(slabs, count, distance, wish->progress, &choice->point, error);
+    result = point_make(slabs, count, wish->table, distance, wish->progress, &choice->point, error);
     if (result == RESULT_OK)
       offers->list[offers->count++] = (struct offer){.mode = INCLUDE_POINT,
                                                      .lights = 1,
@@ -226,17 +226,17 @@ enum result include_choose(const struct slab *slabs, int count, const struct inc
   return sheet_make(slabs, count, chosen->lights, 0, wish->progress, &choice->sheet, error);
 }
 
-enum result include_make(const struct slab *slabs, int count, enum include_mode mode, int lights,
-                         double distance, struct include_choice *choice, struct error *error) {
+enum result include_make(const struct slab *slabs, int count, const struct include_wish *wish,
+                         int lights, struct include_choice *choice, struct error *error) {
   memset(choice, 0, sizeof *choice);
-  choice->mode = mode;
-  switch (mode) {
+  choice->mode = (enum include_mode)wish->modes;
+  switch (choice->mode) {
   case INCLUDE_CLUSTER:
     return cluster_make(slabs, count,
-                        &(struct cluster_wish){.lights = lights, .distance = distance},
+                        &(struct cluster_wish){.lights = lights, .distance = wish->distance},
                         &choice->cluster, error);
   case INCLUDE_POINT:
-    return point_make(slabs, count, distance, NULL, &choice->point, error);
+    return point_make(slabs, count, wish->table, wish->distance, NULL, &choice->point, error);
   default:
     return sheet_make(slabs, count, lights, 0, NULL, &choice->sheet, error);
   }

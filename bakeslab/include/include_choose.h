@@ -20,9 +20,10 @@ struct include_choice {
 };
 
 struct include_wish {
-  int modes;                  /* that may be made */
-  double tolerance, distance; /* distance in aperture widths */
-  struct progress *progress;  /* or NULL */
+  int modes;                       /* that may be made */
+  double tolerance, distance;      /* distance in aperture widths */
+  const struct point_table *table; /* of the lamp's intensities (point.h), or NULL */
+  struct progress *progress;       /* or NULL */
 };
 
 /* Of the kinds that may be made, the cheapest for POV-Ray whose irradiance is the tolerance
@@ -35,8 +36,8 @@ enum result include_choose(const struct slab *slabs, int count, const struct inc
 
 /* One kind with a number of lights: an axis for the sheet (0: all), in all for the
  * cluster, which is fitted for `distance`. */
-enum result include_make(const struct slab *slabs, int count, enum include_mode mode, int lights,
-                         double distance, struct include_choice *choice, struct error *error);
+enum result include_make(const struct slab *slabs, int count, const struct include_wish *wish,
+                         int lights, struct include_choice *choice, struct error *error);
 /* Of a choice, as include_lights_error (include_own_error.h). */
 void include_choice_error(const void *choice, int page, double error[SLAB_ACCURACY_DISTANCES]);
 void include_choice_free(struct include_choice *choice);

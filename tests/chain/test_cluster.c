@@ -265,7 +265,7 @@ TEST(test_point) {
     struct slab slab = smooth_slab(st_distances[d], d, 25);
     struct point point;
     chain_include(&slab, 1, "lamp", "--mode point");
-    assert_int_equal(point_make(&slab, 1, 20, NULL, &point, NULL), RESULT_OK);
+    assert_int_equal(point_make(&slab, 1, NULL, 20, NULL, &point, NULL), RESULT_OK);
     compare_slab(d ? "point, st plane" : "point, infinite", &slab, 20, point.error_at);
     assert_true(point.error_at < 0.02);
     struct chain_lamp lamp = chain_lamp_of(&slab, 1, 1);

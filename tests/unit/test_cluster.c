@@ -319,7 +319,7 @@ TEST(test_refusals) {
       cluster_make(&slab, 1, &(struct cluster_wish){.lights = 4, .distance = 4}, &cluster, &error),
       &error, "all radiance is zero", NULL);
   cluster_free(&cluster);
-  assert_refused(point_make(&slab, 1, 4, NULL, &point, &error), &error, "all radiance is zero",
+  assert_refused(point_make(&slab, 1, NULL, 4, NULL, &point, &error), &error, "all radiance is zero",
                  NULL);
   point_free(&point);
   slab.rgb[0] = 1;
@@ -328,7 +328,7 @@ TEST(test_refusals) {
       cluster_make(&slab, 1, &(struct cluster_wish){.lights = 4, .distance = 4}, &cluster, &error),
       &error, "is negative", NULL);
   cluster_free(&cluster);
-  assert_refused(point_make(&slab, 1, 4, NULL, &point, &error), &error, "is negative", NULL);
+  assert_refused(point_make(&slab, 1, NULL, 4, NULL, &point, &error), &error, "is negative", NULL);
   point_free(&point);
   slab.rgb[7] = 3e38F;
   assert_refused(
@@ -344,7 +344,7 @@ TEST(test_point_flux) {
   struct point point;
   struct error error;
   fill(&slab, soft_lamp);
-  assert_ok(point_make(&slab, 1, 20, NULL, &point, &error), &error);
+  assert_ok(point_make(&slab, 1, NULL, 20, NULL, &point, &error), &error);
   double wanted[3], flux[3] = {0, 0, 0};
   slab_flux(&slab, wanted, NULL);
   int width = point.picture.width, height = point.picture.height;

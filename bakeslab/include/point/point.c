@@ -3,6 +3,7 @@
  * 1. The far field along a direction is the sum over all pages and their views of radiance
  *    times cosine times a view's share of the aperture.
  * 2. It is painted as a lat-long image, each channel over its peak, rounded as the file will be.
+ *    A table of intensities, where there is one, is the image instead.
  * 3. What the image holds as 1 gets the intensity that makes the light's flux the slab's.
  * 4. Its errors are told before each page: of the image for a lamp of one page, else of the
  *    page's own far field. */
@@ -33,7 +34,7 @@ struct far_page {
   struct slab views;         /* owned */
   double u[3], v[3];         /* unit */
   double shift[3];           /* of its centre from the lamp's, along u, v and normal */
-  const struct point *image; /* of the lamp, if this is its only page, or NULL */
+  const struct point *image; /* of the lamp, if this is its only page or a table; or NULL */
 };
 
 struct far_lamp {
@@ -76,18 +77,17 @@ static void add_intensity(const struct far_page *far, const double direction[3],
 }
 
 /* Of the image's texel (i, j), the unit vector in the image's own axes. */
-static void texel_direction(const struct picture *picture, int i, int j, double direction[3]) {
-  double step = M_PI / picture->height;
-  double latitude = (j + 0.5) * step - M_PI / 2, longitude = (i + 0.5) * step;
+static void texel_direction(const struct point *point, int i, int j, double direction[3]) {
+  double longitude = point->first[0] + i * point->step[0];
+  double latitude = point->first[1] + j * point->step[1];
   direction[0] = cos(latitude) * cos(longitude);
   direction[1] = sin(latitude);
   direction[2] = cos(latitude) * sin(longitude);
 }
 
-/* A vector along u, v and the normal of a page, in lamp space. */
-static void to_lamp(const struct far_page *far, const double x[3], double vector[3]) {
-  for (int c = 0; c < 3; ++c)
-    vector[c] = x[0] * far->u[c] + x[1] * far->v[c] + x[2] * far->views.normal[c];
+/* A vector along three axes, in lamp space. */
+static void to_lamp(const double axes[3][3], const double x[3], double vector[3]) {
+  for (int c = 0; c < 3; ++c) vector[c] = x[0] * axes[0][c] + x[1] * axes[1][c] + x[2] * axes[2][c];
 }
 
 /* Wide enough for two columns in the narrowest sample, at the window's corner. */
@@ -105,6 +105,11 @@ static int image_width(const struct far_lamp *lamp) {
   return width;
 }
 
+/* What the file holds of a value. */
+static double round_as_file(double value) {
+  return (double)imath_half_to_float(imath_float_to_half((float)value));
+}
+
 /* Paints the intensity of each channel over its peak, rounded to half as the file will be;
  * `flux` is what the bilinear image then gives. */
 static enum result paint(const struct far_lamp *lamp, struct point *point, double flux[3],
@@ -120,12 +125,15 @@ static enum result paint(const struct far_lamp *lamp, struct point *point, doubl
   }
   picture->width = width;
   picture->height = height;
+  for (int k = 0; k < 2; ++k) point->step[k] = step;
+  point->first[0] = step / 2;
+  point->first[1] = step / 2 - M_PI / 2;
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i) {
       double along[3], direction[3];
       double *rgb = image + 3 * ((size_t)(height - 1 - j) * (size_t)width + (size_t)i);
-      texel_direction(picture, i, j, along);
-      to_lamp(&lamp->pages[0], along, direction);
+      texel_direction(point, i, j, along);
+      to_lamp(point->axes, along, direction);
       for (int p = 0; p < lamp->count; ++p) add_intensity(&lamp->pages[p], direction, rgb);
       for (int c = 0; c < 3; ++c) peak[c] = fmax(peak[c], rgb[c]);
     }
@@ -133,7 +141,7 @@ static enum result paint(const struct far_lamp *lamp, struct point *point, doubl
   for (size_t k = 0; k < values; ++k) {
     if (!(peak[k % 3] > 0)) continue;
     double latitude = ((height - 0.5) - (double)(k / 3 / (size_t)width)) * step - M_PI / 2;
-    picture->rgb[k] = imath_half_to_float(imath_float_to_half((float)(image[k] / peak[k % 3])));
+    picture->rgb[k] = (float)round_as_file(image[k] / peak[k % 3]);
     /* The integral of a texel's hat function over longitude and latitude. */
     flux[k % 3] += (double)picture->rgb[k] * step * cos(latitude) * 2 * (1 - cos(step)) / step;
   }
@@ -141,11 +149,44 @@ static enum result paint(const struct far_lamp *lamp, struct point *point, doubl
   return RESULT_OK;
 }
 
+/* The table as the image, rounded in the same way. */
+static enum result paint_table(const struct point_table *table, struct point *point, double flux[3],
+                               struct error *error) {
+  struct picture *picture = &point->picture;
+  int width = table->columns, height = table->rows;
+  size_t nodes = (size_t)width * (size_t)height;
+  double peak = 0, *rounded = malloc(nodes * sizeof *rounded);
+  picture->rgb = calloc(nodes, 3 * sizeof *picture->rgb);
+  if (!rounded || !picture->rgb) {
+    free(rounded);
+    return result_no_memory(error);
+  }
+  picture->width = width;
+  picture->height = height;
+  point->step[0] = 2 * M_PI / (width - 1);
+  point->step[1] = M_PI / (height - 1);
+  point->first[1] = -M_PI / 2;
+  for (size_t k = 0; k < nodes; ++k) peak = fmax(peak, table->intensity[k]);
+  for (size_t k = 0; k < nodes; ++k) {
+    size_t row = (size_t)height - 1 - k / (size_t)width, column = k % (size_t)width;
+    float *rgb = picture->rgb + 3 * (row * (size_t)width + column);
+    rounded[k] = round_as_file(table->intensity[k] / peak);
+    for (int c = 0; c < 3; ++c) rgb[c] = (float)rounded[k];
+  }
+  for (int c = 0; c < 3; ++c) {
+    flux[c] = point_table_flux(table, rounded);
+    point->flux[c] = point_table_flux(table, table->intensity);
+  }
+  free(rounded);
+  return RESULT_OK;
+}
+
 /* The texel nearest to a quarter in some channel, off the poles. */
-static void choose_check(const struct picture *picture, struct include_check *check) {
+static void choose_check(const struct point *point, struct include_check *check) {
+  const struct picture *picture = &point->picture;
   double best = INFINITY;
-  int height = picture->height, width = picture->width;
-  for (int j = height / 8; j < height - height / 8; ++j)
+  int height = picture->height, width = picture->width, least = height > 8 ? height / 8 : 1;
+  for (int j = least; j < height - least; ++j)
     for (int i = 0; i < width; ++i) {
       const float *rgb = picture->rgb + 3 * ((size_t)(height - 1 - j) * (size_t)width + (size_t)i);
       for (int c = 0; c < 3; ++c) {
@@ -154,7 +195,7 @@ static void choose_check(const struct picture *picture, struct include_check *ch
         best = miss;
         *check = (struct include_check){.rgb = {(double)rgb[0], (double)rgb[1], (double)rgb[2]},
                                         .channel = c};
-        texel_direction(picture, i, j, check->at);
+        texel_direction(point, i, j, check->at);
       }
     }
 }
@@ -162,9 +203,10 @@ static void choose_check(const struct picture *picture, struct include_check *ch
 /* The image along a unit vector in its own axes, as POV-Ray interpolates it. */
 static void look_up(const struct point *point, const double direction[3], double rgb[3]) {
   const struct picture *picture = &point->picture;
-  double longitude = atan2(direction[2], direction[0]) / (2 * M_PI);
-  double x = (longitude < 0 ? longitude + 1 : longitude) * picture->width - 0.5;
-  double y = (0.5 - asin(direction[1]) / M_PI) * picture->height - 0.5;
+  double longitude = atan2(direction[2], direction[0]), latitude = asin(direction[1]);
+  if (longitude < 0) longitude += 2 * M_PI;
+  double x = (longitude - point->first[0]) / point->step[0];
+  double y = picture->height - 1 - (latitude - point->first[1]) / point->step[1];
   int column = (int)floor(x), row = (int)floor(y);
   for (int k = 0; k < 4; ++k) {
     int i = (column + (k & 1) + picture->width) % picture->width, j = row + (k >> 1);
@@ -180,17 +222,20 @@ static void look_up(const struct point *point, const double direction[3], double
 static void far_irradiance(const void *of, int number, const double at[3], double rgb[3]) {
   (void)number;
   const struct far_page *far = of;
-  double along[3], direction[3];
+  double along[3], direction[3], seen[3];
   for (int c = 0; c < 3; ++c) along[c] = at[c] + far->shift[c];
   double r2 = dot(along, along), r = sqrt(r2);
-  for (int c = 0; c < 3; ++c) along[c] /= r;
-  to_lamp(far, along, direction);
+  for (int c = 0; c < 3; ++c)
+    direction[c] =
+        (along[0] * far->u[c] + along[1] * far->v[c] + along[2] * far->slab->normal[c]) / r;
   rgb[0] = rgb[1] = rgb[2] = 0;
-  if (far->image)
-    look_up(far->image, along, rgb);
-  else
+  if (far->image) {
+    for (int k = 0; k < 3; ++k) seen[k] = dot(direction, far->image->axes[k]);
+    look_up(far->image, seen, rgb);
+  } else {
     add_intensity(far, direction, rgb);
-  for (int c = 0; c < 3; ++c) rgb[c] *= along[2] / r2;
+  }
+  for (int c = 0; c < 3; ++c) rgb[c] *= along[2] / r / r2;
 }
 
 /* Makes `*worst` at least the error before a page, at a distance in aperture widths. */
@@ -259,7 +304,12 @@ static enum result gather(const struct slab *const *lit, int count, struct far_l
     total += weight;
     point->width = fmax(point->width, plane_width(lit[p]));
   }
-  for (int c = 0; c < 3; ++c) point->center[c] /= total;
+  for (int c = 0; c < 3; ++c) {
+    point->center[c] /= total;
+    point->axes[0][c] = lamp->pages[0].u[c];
+    point->axes[1][c] = lamp->pages[0].v[c];
+    point->axes[2][c] = lit[0]->normal[c];
+  }
   return RESULT_OK;
 }
 
@@ -278,18 +328,27 @@ static enum result finish(struct point *point, const double flux[3], struct erro
         include_check_colour(point->intensity[c] / (2 * M_PI * fade * fade), -1, error);
     if (result != RESULT_OK) return result;
   }
-  choose_check(picture, &point->lamp.check);
+  choose_check(point, &point->lamp.check);
   size_t bytes = (size_t)picture->width * (size_t)picture->height * 3 * sizeof *picture->rgb;
   uint64_t hash = include_hash(include_hash_start, picture->rgb, bytes);
   hash = include_hash(hash, point->center, sizeof point->center);
   hash = include_hash(hash, point->intensity, sizeof point->intensity);
-  hash = include_hash(hash, point->lamp.frame.u, sizeof point->lamp.frame.u);
-  point->lamp.stamp = include_hash(hash, point->lamp.frame.v, sizeof point->lamp.frame.v);
+  point->lamp.stamp = include_hash(hash, point->axes, sizeof point->axes);
   return RESULT_OK;
 }
 
-enum result point_make(const struct slab *slabs, int count, double distance,
-                       struct progress *progress, struct point *point, struct error *error) {
+/* Stands where the table was measured, and has its axes. */
+static enum result take_table(const struct point_table *table, struct point *point, double flux[3],
+                              struct error *error) {
+  memset(point->center, 0, sizeof point->center);
+  memcpy(point->axes, table->axes, sizeof point->axes);
+  point->table = table;
+  return paint_table(table, point, flux, error);
+}
+
+enum result point_make(const struct slab *slabs, int count, const struct point_table *table,
+                       double distance, struct progress *progress, struct point *point,
+                       struct error *error) {
   struct far_lamp lamp = {0};
   const struct slab **lit = NULL;
   int lit_count = 0;
@@ -298,7 +357,8 @@ enum result point_make(const struct slab *slabs, int count, double distance,
   point->distance = distance;
   enum result result = include_lit_pages(slabs, count, &point->lamp, &lit, &lit_count, error);
   if (result == RESULT_OK) result = gather(lit, lit_count, &lamp, point, error);
-  if (result == RESULT_OK) result = paint(&lamp, point, flux, error);
+  if (result == RESULT_OK)
+    result = table ? take_table(table, point, flux, error) : paint(&lamp, point, flux, error);
   if (result == RESULT_OK) result = finish(point, flux, error);
   if (result == RESULT_OK) result = measure(&lamp, progress, point, error);
   for (int p = 0; p < lamp.count; ++p) slab_free(&lamp.pages[p].views);

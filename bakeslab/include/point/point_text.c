@@ -12,12 +12,16 @@ static const double radius = 0.05, most_radius = 0.5;
 
 static void print_frame(const void *of, FILE *out) {
   const struct point *point = of;
-  fputs("  ", out);
-  include_put_frame(&point->lamp.frame, point->center, ",\n  ", out);
+  const double *vectors[4] = {point->axes[0], point->axes[1], point->axes[2], point->center};
+  for (int k = 0; k < 4; ++k)
+    fprintf(out, "%s<%.15g, %.15g, %.15g>", k ? ",\n  " : "  ", vectors[k][0], vectors[k][1],
+            vectors[k][2]);
 }
 
 void point_print(const struct point *point, const struct include_text *text, FILE *out) {
   const struct slab *frame = &point->lamp.frame;
+  const struct point_table *table = point->table;
+  const double texels[2] = {point->picture.width, point->picture.height};
   double flux[3], percent[POINT_DISTANCES];
   for (int c = 0; c < 3; ++c)
     flux[c] = point->flux[c] * (frame->metres_per_unit * frame->metres_per_unit);
@@ -34,7 +38,10 @@ void point_print(const struct point *point, const struct include_text *text, FIL
       {"least_radius", .number = least_radius},
       {"small_scale", .number = least_radius / (radius * point->width)},
       {"least_scale", .number = least_radius / (most_radius * point->width)},
-      {"mapping", .text = "map_type 1 "},
+      {"mapping", .text = table ? "" : "map_type 1 "},
+      {"texels", .numbers = table ? texels : NULL},
+      {"exact", .text = table && table->exact ? "on all of its angles" : NULL},
+      {"fine", .text = table && !table->exact ? "closer than its angles" : NULL},
       {0}};
   include_print(point_inc, text, &point->lamp, values, out);
 }

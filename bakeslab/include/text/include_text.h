@@ -18,6 +18,7 @@ struct include_text {
   const char *housing;    /* SDL of the visible lamp, or NULL */
   int housing_left_out;   /* there was one, which is not safe to use */
   const char *own_error;  /* the slab's: include_own_error's lines */
+  const char *source;     /* where imported light comes from, one line; or NULL */
   const char *chosen;     /* why it is of this kind, or NULL; one line */
 };
 
