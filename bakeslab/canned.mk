@@ -1,14 +1,17 @@
 # canned.mk - lamps for your own Makefile: `include` this file, and let scenes depend on
-# desk_lamp.inc or desk_lamp.tif where there is a desk_lamp.pov.
+# desk_lamp.inc or desk_lamp.tif where there is a desk_lamp.pov, .ies, .ldt, .tm25ray or .rays.
 #
 #   %.tif: %.pov    bakeslab bake: a lamp script to a light slab; again when the script or
 #                   any file that it read last time has changed
+#   %.tif: %.ies    bakeslab import: a photometric file (%.ldt, too) or a ray file (%.tm25ray, and
+#                   %.rays: text) to a light slab
 #   %.inc: %.tif    bakeslab include: a light slab to an include file and its image
 #
 # Variables, on the command line, in a Makefile, or for one target:
 #
 #   BAKESLAB               the program
 #   CANNED_BAKE_FLAGS      desk_lamp.tif: CANNED_BAKE_FLAGS = --uv 32x32 --rays 64
+#   CANNED_IMPORT_FLAGS    downlight.tif: CANNED_IMPORT_FLAGS = --turn 90
 #   CANNED_INCLUDE_FLAGS   desk_lamp.inc: CANNED_INCLUDE_FLAGS = --lights 8
 #   CANNED_DEPENDS         the folder for what make is to know of files read
 #
@@ -18,6 +21,7 @@
 # yet to build must be told to depend on it.
 BAKESLAB ?= bakeslab
 CANNED_BAKE_FLAGS ?=
+CANNED_IMPORT_FLAGS ?=
 CANNED_INCLUDE_FLAGS ?=
 CANNED_DEPENDS ?= .canned
 
@@ -29,6 +33,18 @@ canned_depend = $(CANNED_DEPENDS)/$(subst /,+-,$(subst +,++,$@)).d
 %.tif: %.pov
 	@mkdir -p $(call canned_quote,$(CANNED_DEPENDS))
 	$(BAKESLAB) bake $(CANNED_BAKE_FLAGS) --depend $(call canned_quote,$(canned_depend)) -o $(call canned_quote,$@) $(call canned_quote,$<)
+
+define canned_import
+	$(BAKESLAB) import $(CANNED_IMPORT_FLAGS) -o $(call canned_quote,$@) $(call canned_quote,$<)
+endef
+%.tif: %.ies
+	$(canned_import)
+%.tif: %.ldt
+	$(canned_import)
+%.tif: %.tm25ray
+	$(canned_import)
+%.tif: %.rays
+	$(canned_import)
 
 %.inc: %.tif
 	$(BAKESLAB) include $(CANNED_INCLUDE_FLAGS) -o $(call canned_quote,$@) $(call canned_quote,$<)

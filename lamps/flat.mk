@@ -1,9 +1,9 @@
-# Lamps are read, and installed as examples. The shelf: all of them baked, and a page of what
-# they are and do. SHELF is its folder, SHELF_LAMPS are the scripts, SHELF_FLAGS options of
-# `bakeslab bake` in place of those that each script's header recommends.
-LAMP_FILES := $(sort $(wildcard lamps/*.pov lamps/*.inc lamps/*.png lamps/*.md lamps/LICENSE lamps/projector/*))
+# Lamps are read, and installed as examples. The shelf: all of them baked or imported, and a page of
+# what they are and do. SHELF is its folder, SHELF_LAMPS are the scripts and what is imported,
+# SHELF_FLAGS options of `bakeslab bake` in place of those that each script's header recommends.
+LAMP_FILES := $(sort $(wildcard lamps/*.pov lamps/*.ies lamps/*.rays lamps/*.inc lamps/*.png lamps/*.md lamps/LICENSE lamps/projector/*))
 SHELF ?= build/shelf
-SHELF_LAMPS ?= $(sort $(wildcard lamps/*.pov))
+SHELF_LAMPS ?= $(sort $(wildcard lamps/*.pov lamps/*.ies lamps/*.rays))
 SHELF_FLAGS ?=
 
 .PHONY: lamps

@@ -17,10 +17,14 @@ def flux: [.pages[].flux] | transpose | map(add | rounded) | "\(.[0]), \(.[1]), 
 def plane: [.pages[] | if .st_distance then .st_distance*.metres_per_unit | metres else "at infinity" end]
   | unique | join(", ");
 # Of the run that finished the bake.
-def time: (.bake | capture("(?<all>[0-9]+) batches, (?<found>[0-9]+) of them found finished; .* (?<cpu>[0-9.]+) CPU s"))
+def time: (.log | capture("(?<all>[0-9]+) batches, (?<found>[0-9]+) of them found finished; .* (?<cpu>[0-9.]+) CPU s"))
     // null
   | if . == null then "not known" else "\(.cpu | tonumber | seconds) of a processor"
     + if .found != "0" then ", with \(.found) of \(.all) batches found finished" else "" end end;
+
+# Of what was imported: what it comes from, and the notes of the import.
+def source: .pages[0].provenance.import
+  | "\([.source] | flatten | join(", ")) (\(.kind)): \(.assumptions)";
 
 def row($what; $text): @html "<tr><th scope=\"row\">\($what)</th><td>\($text)</td></tr>\n";
 def effects: .pages[0].provenance.effects?
@@ -37,12 +41,12 @@ def card:
   + if .error then @html "<p class=\"error\">This lamp was not built:</p>\n<pre class=\"error\">\(.error)</pre>\n"
     else
       "<div class=\"pictures\">\n"
-      + figure("\(.name).png"; "The lamp \(.name | gsub("_"; " "))"; "the lamp, by its script"; 360)
+      + if .baked then figure("\(.name).png"; "The lamp \(.name | gsub("_"; " "))"; "the lamp, by its script"; 360) else "" end
       + figure("\(.name).near.png"; "Floor, wall and post lit by \(.name | gsub("_"; " ")), \(.near | metres) away"; "near: from \(.near | metres)"; 320)
       + figure("\(.name).far.png"; "Floor, wall and post lit by \(.name | gsub("_"; " ")), \(.far | metres) away"; "far: from \(.far | metres)"; 320)
       + "</div>\n<table><caption>Figures</caption>\n"
       + row("flux, R, G, B"; "\(flux) \(.pages[0].flux_unit)") + row("size"; size) + row("resolution"; resolution)
-      + row("st plane"; plane) + row("baked in"; time)
+      + row("st plane"; plane) + if .baked then row("baked in"; time) else row("imported from"; source) end
       + "</table>\n" + effects
       + @html "<h3>In a scene</h3>\n<pre><code>#include \"\(.name).inc\"\nobject { \(.macro)(1, 1) }"
       + (if .housing then @html "\nobject { \(.macro)_Housing() }" else "" end) + "</code></pre>\n<h3>Files</h3>\n<ul>\n"
@@ -59,7 +63,7 @@ nav ul { display: flex; flex-wrap: wrap; gap: .25rem 1rem; list-style: none; pad
 nav a { display: inline-block; padding: .3rem 0 }
 h2 { margin: 1rem 0 .5rem } h3 { font-size: 1rem; margin: 1rem 0 .25rem }
 .pictures { display: grid; gap: .5rem; grid-template-columns: 1fr 1fr }
-.pictures figure:first-child { grid-column: 1 / 3 }
+.pictures figure:nth-last-child(3) { grid-column: 1 / 3 }
 figure { margin: 0 } img { background: #000; display: block; height: auto; width: 100% }
 figcaption, caption { font-size: .875rem; text-align: left } caption { font-weight: bold; padding-top: 1rem }
 table { border-collapse: collapse; width: 100% }
@@ -73,7 +77,7 @@ def page: . as $lamps
   | "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
   + "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Canned lamps</title>\n"
   + "<style>\n\(style)</style>\n</head>\n<body>\n<header>\n<h1>Canned lamps</h1>\n"
-  + "<p>\(plural(length; "lamp")), each simulated once: put its include file and image beside a scene for POV-Ray 3.7,"
+  + "<p>\(plural(length; "lamp")), each simulated or measured once: put its include file and image beside a scene for POV-Ray 3.7,"
   + " or light a mesh with its slab (.tif) by renderslab. Near is two widths of the lamp away, far eight, or where its"
   + " light is in focus; these pictures are by renderslab, from the slab.</p>\n<nav aria-label=\"Lamps\"><ul>\n"
   + ($lamps | map(@html "<li><a href=\"#\(.name)\">\(.name | gsub("_"; " "))</a></li>\n") | add // "") + "</ul></nav>\n"

@@ -5,9 +5,16 @@
 #                                       and in NAME.error if it fails
 #   shelf.sh preview NAME SCRIPT FOLDER NAME.png: the lamp by itself; FOLDER has canned.inc
 #   shelf.sh rooms NAME BAKE RENDER     NAME.near.png, NAME.far.png: what it lights
-#   shelf.sh page SCRIPT...             index.html of these lamps; exit 1 if one was not built
+#   shelf.sh page LAMP...               index.html of these lamps, scripts and files that are
+#                                       imported; exit 1 if one was not built
 set -euo pipefail
 here=$(dirname "$(realpath "$0")")
+
+# The name of a lamp, by its file.
+name_of() {
+  local name=${1##*/}
+  echo "${name%.*}"
+}
 
 flags() {
   local flags=${2-}
@@ -15,7 +22,7 @@ flags() {
   # They become words of a shell's command line.
   if [[ ! $flags =~ ^[-A-Za-z0-9_=.,/^\ ]*$ ]]; then
     echo "shelf.sh: $1: its line \"// Bake:\" has more than plain options: $flags" |
-      tee "$(basename "$1" .pov).error" >&2
+      tee "$(name_of "$1").error" >&2
     return 1
   fi
   printf '%s' "$flags"
@@ -58,14 +65,19 @@ rooms() {
   for which in near far; do mv "$name.$which.new.png" "$name.$which.png"; done
 }
 
-# The first sentences of a script's header, up to those on baking it.
+# What a lamp is: the first sentences of a script's header, up to those on baking it; the name in a
+# photometric file; the first comments of a ray file.
 about() {
-  sed -n '/^\/\//!q;/^\/\/ \(It calls for\|Pages\|Bake\|Use\|Licence\)/q;s|^// *||p' "$1" | tr '\n' ' '
+  case $1 in
+    *.ies) sed -n 's/^\[LUMINAIRE\] *//p' "$1" | tr -d '\r' ;;
+    *.rays) sed -n '/^#/!q;/^# Licence/q;s/^# *//p' "$1" | tr '\n' ' ' ;;
+    *) sed -n '/^\/\//!q;/^\/\/ \(It calls for\|Pages\|Bake\|Use\|Licence\)/q;s|^// *||p' "$1" | tr '\n' ' ' ;;
+  esac
 }
 
 # What is known of a lamp as JSON; shelf.jq makes a card of it.
 facts() {
-  local name=$1 script=$2 error='' file files=() inc=$1.inc
+  local name=$1 script=$2 error='' file files=() inc=$1.inc baked=true log=$1.bake.log
   if [ -e "$name.error" ]; then
     error=$(cat "$name.error")
   elif [ ! -e "$name.far.png" ] || [ ! -e "$inc" ]; then
@@ -75,25 +87,26 @@ facts() {
     jq -n --arg name "$name" --arg about "$(about "$script")" --arg error "$error" '{$name, $about, $error}'
     return
   fi
+  [[ $script == *.pov ]] || baked=false log=$name.import.log
   for file in "$name".{inc,exr,tif}; do
     [ ! -e "$file" ] || files+=("$file" "$(stat -c %s "$file")")
   done
-  jq -n --arg name "$name" --arg about "$(about "$script")" --rawfile bake "$name.bake.log" \
+  jq -n --arg name "$name" --arg about "$(about "$script")" --rawfile log "$log" --argjson baked "$baked" \
     --arg macro "$(grep -m1 -oE '[A-Za-z0-9_]+_Canned\b' "$inc")" \
     --arg housing "$(grep -c '^#macro .*_Canned_Housing()' "$inc" || true)" \
     --slurpfile info "$name.json" --slurpfile near "$name.near.json" --slurpfile far "$name.far.json" \
-    '{$name, $about, $bake, $macro, housing: ($housing != "0"), pages: $info[0].pages,
+    '{$name, $about, $baked, $log, $macro, housing: ($housing != "0"), pages: $info[0].pages,
       near: $near[0].distance, far: $far[0].distance,
       files: [$ARGS.positional | _nwise(2) | {name: .[0], bytes: (.[1] | tonumber)}]}' --args "${files[@]}"
 }
 
 page() {
   local script broken=0
-  for script in "$@"; do facts "$(basename "$script" .pov)" "$script"; done >facts.json
+  for script in "$@"; do facts "$(name_of "$script")" "$script"; done >facts.json
   jq -rs -L "$here" 'include "shelf"; page' facts.json >index.html.new
   mv index.html.new index.html
   for script in "$@"; do
-    [ -z "$(jq -r "select(.name == \"$(basename "$script" .pov)\") | .error // empty" facts.json)" ] || {
+    [ -z "$(jq -r "select(.name == \"$(name_of "$script")\") | .error // empty" facts.json)" ] || {
       echo "make lamps: $script: was not built; see the page" >&2
       broken=1
     }

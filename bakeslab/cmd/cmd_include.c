@@ -17,7 +17,8 @@
 
 static const char doc[] =
     "Writes LAMP.inc, an include file for stock POV-Ray 3.7, and beside it the image LAMP.exr "
-    "that it reads, which light any scene with the slab. A cluster needs no image."
+    "that it reads, which light any scene with the slab. A cluster needs no image. In place of a "
+    "slab it takes what `bakeslab import' reads: a photometric file (IES, EULUMDAT), say."
     "\v"
     "In a scene:\n"
     "\n"
@@ -30,7 +31,7 @@ static const char doc[] =
     "Modes:\n"
     "  sheet    a point light on each uv sample, filtered by an image: exact\n"
     "  cluster  a few area lights fitted to the slab: faster, no image\n"
-    "  point    the far field: one light, and an image\n"
+    "  point    the far field: one light, and an image; of a photometric file its own table\n"
     "  auto     the one that is cheapest for POV-Ray within the tolerance\n"
     "Errors are relative RMS differences of the irradiance on planes at the distance, and "
     "distances in widths of the aperture (its longer edge). With auto the tolerance holds also in "
@@ -45,7 +46,8 @@ static const char doc[] =
     "    --distance 4\n"
     "  bakeslab include street_lamp.tif -o far.inc --mode auto --tolerance 0.02 \\\n"
     "    --distance 40\n"
-    "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light";
+    "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light\n"
+    "  bakeslab include downlight.ies -o downlight.inc --mode point";
 
 enum { DEFAULT_CLUSTER = 16 };
 static const double default_distance = 4;
@@ -268,7 +270,7 @@ static enum result run(void *input, struct error *error) {
   return result;
 }
 
-static const struct argp argp = {options, parse_option, "SLAB -o LAMP.inc", doc, cli_options,
+static const struct argp argp = {options, parse_option, "SLAB|FILE -o LAMP.inc", doc, cli_options,
                                  NULL,    NULL};
 
 int cmd_include(int argc, char **argv) {

@@ -1,0 +1,188 @@
+#!/usr/bin/env bats
+# bakeslab import and include of photometric files that are bad, or odd: one line with file and
+# line, and nothing left behind.
+
+load slab
+
+setup() { cd "$BATS_TEST_TMPDIR" || return; }
+
+# ies FILE [VARIABLE=VALUE]...: a small IES file of what the variables say: version, tilt, counts,
+# size, factors, rows, planes, candela, rest.
+ies() {
+  local file=$1 version=IESNA:LM-63-2002 tilt=NONE counts='3 2 1 2' size='.2 .3 0' factors='1 1 20' lumens='1 1000 1'
+  local rows='0 45 90' planes='0 90' candela='100 70 10 100 60 0' rest=''
+  shift
+  while [ $# -gt 0 ]; do
+    local "$1"
+    shift
+  done
+  printf '%s\r\n[TEST] none\r\nTILT=%s\r\n%s %s %s\r\n%s\r\n%s\r\n%s\r\n%s\r\n%s' "$version" "$tilt" "$lumens" "$counts" "$size" \
+    "$factors" "$rows" "$planes" "$candela" "$rest" >"$file"
+}
+
+# ldt FILE [VARIABLE=VALUE]...: a small EULUMDAT file.
+ldt() {
+  local file=$1 symmetry=1 planes=4 rows=3 sizes='200 100 0 0 0 0' factor=1 sets=1 flux=1000
+  local numbers='1 1 1 1 1 1 1 1 1 1 0 90 180 270 0 45 90 100 70 0'
+  shift
+  while [ $# -gt 0 ]; do
+    local "$1"
+    shift
+  done
+  {
+    printf '%s\r\n' Canned 1 "$symmetry" "$planes" 90 "$rows" 45 report name number file today 210 110 50
+    # shellcheck disable=SC2086 # a line each
+    printf '%s\r\n' $sizes 100 80 "$factor" 0 "$sets"
+    printf '%s\r\n' 1 LED "$flux" warm 80 10
+    printf '%s\r\n' "$numbers"
+  } >"$file"
+}
+
+# bad FILE PIECE...: both commands refuse it in one line that names the file, and leave nothing.
+bad() {
+  local file=$1
+  shift
+  refuses 1 "bakeslab: $file: " "$@" -- "$BAKESLAB" import "$file" -o out.tif
+  refuses 1 "bakeslab: $file: " "$@" -- "$BAKESLAB" include "$file" -o out.inc
+  [ -z "$(find . -name 'out.*')" ]
+}
+
+@test "good ones, to begin with" {
+  ies good.ies
+  run -0 "$BAKESLAB" import good.ies -o good.tif --uv 2 --st 8
+  ldt good.ldt
+  run -0 "$BAKESLAB" import good.ldt -o good2.tif --uv 2 --st 8
+  # What is in no way a photometric file, but is called so.
+  printf 'hello\n' >hello.ies
+  bad hello.ies
+  : >empty.ies
+  bad empty.ies
+}
+
+@test "cut off anywhere: refused, or as if a blank at the end were missing" {
+  ies whole.ies
+  ldt whole.ldt
+  for file in whole.ies whole.ldt; do
+    size=$(stat -c %s $file)
+    for ((length = 1; length < size - 3; length += 7)); do
+      head -c $length $file >"cut.${file#*.}"
+      refuses 1 "bakeslab: cut.${file#*.}: " -- "$BAKESLAB" import "cut.${file#*.}" -o out.tif
+    done
+  done
+  [ ! -e out.tif ]
+}
+
+@test "fewer numbers than promised, or more" {
+  ies few.ies candela='100 70 10 100 60'
+  bad few.ies 'line 10: ' 'cut off'
+  ies many.ies candela='100 70 10 100 60 0 5'
+  bad many.ies 'line 10: ' '1 numbers too many'
+  ldt few.ldt numbers='1 1 1 1 1 1 1 1 1 1 0 90 180 270 0 45 90 100 70'
+  bad few.ldt 'cut off'
+  ldt many.ldt numbers='1 1 1 1 1 1 1 1 1 1 0 90 180 270 0 45 90 100 70 0 0'
+  bad many.ldt '1 numbers too many'
+}
+
+@test "counts of 0, below 0, 1e9, and with a fraction" {
+  for count in 0 -1 1e9 1000000000 2.5; do
+    ies count.ies counts="$count 2 1 2"
+    bad count.ies 'line 4: the number of vertical angles'
+    ies count.ies counts="3 $count 1 2"
+    bad count.ies 'line 4: the number of horizontal angles'
+    ldt count.ldt planes=$count
+    bad count.ldt 'line 4: the number of C planes'
+    ldt count.ldt rows=$count
+    bad count.ldt 'line 6: the number of intensities'
+    ldt count.ldt sets=$count
+    bad count.ldt 'line 2'
+  done
+  ies count.ies counts='10000 10000 1 2'
+  bad count.ies 'too short for 10000 vertical and 10000 horizontal angles'
+  ies type.ies counts='3 2 4 2'
+  bad type.ies 'the photometric type'
+  ies unit.ies counts='3 2 1 3'
+  bad unit.ies 'the unit of length'
+}
+
+@test "angles that do not ascend, or do not fit their symmetry" {
+  ies angles.ies rows='0 90 45'
+  bad angles.ies 'line 7' 'must ascend, but 45 follows 90'
+  ies angles.ies rows='0 0 90'
+  bad angles.ies 'must ascend, but 0 follows 0'
+  ies angles.ies rows='0 45 190'
+  bad angles.ies '190 degrees is outside of 0 to 180'
+  ies angles.ies planes='0 100'
+  bad angles.ies 'line 8' 'horizontal angles from 0 to 100 fit no symmetry'
+  ies angles.ies planes='30 120'
+  bad angles.ies 'fit no symmetry'
+  ldt angles.ldt numbers='1 1 1 1 1 1 1 1 1 1 0 90 80 270 0 45 90 100 70 0'
+  bad angles.ldt 'C angles must ascend, but 80 follows 90'
+  ldt angles.ldt symmetry=5
+  bad angles.ldt 'line 3: the symmetry (Isym) is 5'
+  ldt angles.ldt symmetry=4 planes=6
+  bad angles.ldt '6 C planes do not fit the symmetry 4'
+}
+
+@test "NaN, infinity and words where numbers should be" {
+  for word in nan inf -inf 1e999 x 0x10 1,2,3,; do
+    ies word.ies candela="100 $word 10 100 60 0"
+    [ "$word" = 1,2,3, ] || bad word.ies 'line 9' "$word"
+    ies word.ies factors="$word 1 20"
+    bad word.ies 'line '
+    ldt word.ldt flux=$word
+    bad word.ldt 'line '
+  done
+  ies factor.ies lumens='1 1000 0'
+  bad factor.ies 'multiply to 0'
+  ldt flux.ldt flux=0
+  bad flux.ldt 'have no luminous flux'
+}
+
+@test "negative intensities are kept and told; an include cannot have them" {
+  ies negative.ies candela='100 -70 10 100 60 0'
+  run -0 --separate-stderr "$BAKESLAB" import negative.ies -o negative.exr --precision float
+  [[ $stderr == *negative* ]]
+  "$BAKESLAB" info negative.exr | grep -q '^  lowest  *-[0-9]'
+  refuses 1 'negative.ies: ' negative -- "$BAKESLAB" include negative.ies -o out.inc
+  refuses 1 'negative.ies: ' negative -- "$BAKESLAB" include negative.ies -o out.inc --mode point
+  [ -z "$(find . -name 'out.*')" ]
+}
+
+@test "TILT: a file that is not there, one that is, and what it says is told" {
+  ies tilt.ies tilt=tilt.txt
+  bad tilt.ies 'line 3: ' 'tilt.txt' 'put it beside'
+  printf '1\n3\n0 45 90\n1 .9 .8\n' >tilt.txt
+  run -0 --separate-stderr "$BAKESLAB" import tilt.ies -o tilt.tif --uv 2 --st 8
+  [[ $stderr == *tilt* ]]
+  printf '1\n3\n0 90 45\n1 .9 .8\n' >tilt.txt
+  bad tilt.ies 'tilt.txt' 'must ascend'
+  ies tilt.ies tilt=
+  bad tilt.ies 'line 3: ' 'TILT='
+}
+
+@test "openings of no size: a stated small one, and what that means is told; of a mad size: refused" {
+  ies point.ies size='0 0 0'
+  run -0 --separate-stderr "$BAKESLAB" import point.ies -o point.tif --uv 2 --st 8
+  [[ $stderr == *point* || $stderr == *opening* ]]
+  ldt point.ldt sizes='0 0 0 0 0 0'
+  run -0 --separate-stderr "$BAKESLAB" import point.ldt -o point2.tif --uv 2 --st 8
+  ies huge.ies size='1e300 1 0'
+  bad huge.ies "no lamp's"
+  ies nan.ies size='nan 1 0'
+  bad nan.ies 'line 4'
+}
+
+@test "files that cannot be read" {
+  refuses 1 'none.ies: ' -- "$BAKESLAB" import none.ies -o out.tif
+  refuses 1 'none.ies: ' -- "$BAKESLAB" include none.ies -o out.inc
+  mkdir folder.ies
+  refuses 1 'folder.ies: ' -- "$BAKESLAB" import folder.ies -o out.tif
+  refuses 2 'no file given' -- "$BAKESLAB" import -o out.tif
+  ies good.ies
+  refuses 2 'no output' -- "$BAKESLAB" import good.ies
+  ldt other.ldt
+  refuses 1 'other.ldt: ' -- "$BAKESLAB" import good.ies other.ldt -o out.tif
+  cp good.ies out.tif
+  refuses '[12]' 'out.tif' -- "$BAKESLAB" import out.tif -o out.tif
+  cmp good.ies out.tif
+}
