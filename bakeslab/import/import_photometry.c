@@ -71,7 +71,7 @@ static void describe_opening(const struct photometry *lamp, const struct photome
              size[2]);
   else
     snprintf(text, room, "%s of %.4g x %.4g x %.4g m%s", name, size[0], size[1], size[2],
-             pages->thick ? ", with sides that the file does not tell of" : "");
+             pages->thick ? ", thicker than the file says" : "");
 }
 
 static void note_opening(const struct photometry *lamp, const struct photometry_pages *pages,
@@ -84,8 +84,8 @@ static void note_opening(const struct photometry *lamp, const struct photometry_
                  size[0], size[1], size[2]);
   else if (pages->thick)
     warnings_add(notes,
-                 "the opening is flat, but much light goes along it: it gets sides, %g x %g "
-                 "x %g m in all",
+                 "the opening is flat or nearly so, but much light goes along it: it is "
+                 "made thicker, %g x %g x %g m",
                  size[0], size[1], size[2]);
   for (int k = 0; k < 3 && lamp->shape == PHOTOMETRY_BOX; ++k)
     if (!(lamp->size[k] > 0) && size[k] > 0 && !pages->thick)

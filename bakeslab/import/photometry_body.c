@@ -30,23 +30,24 @@ static void lower_sides(const struct photometry *lamp, struct photometry_body *b
   }
 }
 
+static double middle_of(const double size[3]) {
+  double least = fmin(size[0], fmin(size[1], size[2]));
+  double most = fmax(size[0], fmax(size[1], size[2]));
+  return size[0] + size[1] + size[2] - least - most;
+}
+
 static void set_sizes(const struct photometry *lamp, bool thick, struct photometry_body *body) {
-  double *size = body->size, longest = 0, least = INFINITY;
+  double *size = body->size, longest = fmax(lamp->size[0], fmax(lamp->size[1], lamp->size[2]));
   int zeros = 0;
   memcpy(size, lamp->size, sizeof body->size);
-  for (int k = 0; k < 3; ++k) {
-    longest = fmax(longest, size[k]);
-    if (size[k] > 0) least = fmin(least, size[k]);
-    zeros += !(size[k] > 0);
-  }
+  for (int k = 0; k < 3; ++k) zeros += !(size[k] > 0);
   if (zeros == 3) size[0] = size[2] = PHOTOMETRY_POINT_SIZE;
   if (zeros == 3 && thick) size[1] = PHOTOMETRY_POINT_SIZE;
   if (zeros == 2) /* a line lies down if it can */
     for (int k = 0; k < 3; ++k)
-      if (!(size[k] > 0) && (thick || k != 1)) size[k] = longest / 20;
-  if (zeros == 1 && thick)
-    for (int k = 0; k < 3; ++k)
-      if (!(size[k] > 0)) size[k] = least / 20;
+      if (!(size[k] > 0) && (thick || k != 1)) size[k] = longest * BODY_THIN;
+  if (zeros < 2 && thick)
+    for (int k = 0; k < 3; ++k) size[k] = fmax(size[k], middle_of(lamp->size) * BODY_THIN);
 }
 
 void photometry_body(const struct photometry *lamp, bool thick, struct photometry_body *body) {
@@ -55,11 +56,22 @@ void photometry_body(const struct photometry *lamp, bool thick, struct photometr
   if (body->shape == PHOTOMETRY_POINT) body->shape = PHOTOMETRY_BOX;
   set_sizes(lamp, thick, body);
   for (int f = 0; f < BODY_FACES; ++f) set_face(&body->face[f], body->size, axis[f], sign[f]);
-  if (lamp->shape == PHOTOMETRY_BOX && lamp->size[1] > 0) lower_sides(lamp, body);
+  if (lamp->shape == PHOTOMETRY_BOX && body->size[1] == lamp->size[1] && lamp->size[1] > 0)
+    lower_sides(lamp, body);
 }
 
+/* A disc, or an upright one. */
 static bool is_flat(const struct photometry_body *body) {
   return body->shape == PHOTOMETRY_CYLINDER && !(body->size[body->axis] > 0);
+}
+
+bool photometry_is_even(const struct photometry_body *body) {
+  return body->shape == PHOTOMETRY_BOX || is_flat(body);
+}
+
+bool photometry_is_thin(const struct photometry_body *body) {
+  const double *size = body->size;
+  return fmin(size[0], fmin(size[1], size[2])) < middle_of(size) * BODY_THIN;
 }
 
 double photometry_area(const struct photometry_body *body, const double direction[3]) {

@@ -24,10 +24,17 @@ struct photometry_body {
 };
 
 /* The lamp's body. What has no size gets one: a point a square of PHOTOMETRY_POINT_SIZE metres that
- * faces down, a line a twentieth of its length. With `thick`, something flat gets sides too: a
- * point's square becomes a cube, others get a twentieth of their smaller size. */
+ * faces down, a line BODY_THIN of its length. With `thick`, something flat gets sides too: a
+ * point's square becomes a cube, others get at least BODY_THIN of their next larger size. */
 #define PHOTOMETRY_POINT_SIZE 0.01
+#define BODY_THIN 0.05
 void photometry_body(const struct photometry *lamp, bool thick, struct photometry_body *body);
+
+/* Whether a face shines alike in all directions: boxes, and what is flat. */
+bool photometry_is_even(const struct photometry_body *body);
+
+/* Flat, or so thin that it is nearly so. */
+bool photometry_is_thin(const struct photometry_body *body);
 
 /* Its projected area towards a unit vector, m2. */
 double photometry_area(const struct photometry_body *body, const double direction[3]);

@@ -16,14 +16,15 @@
 enum {
   LEAST = 24, /* cells along the widest window, to begin with */
   MOST = 1024,
-  MOST_CELLS = 1 << 20, /* of all pages */
-  MOST_ROUND = 1 << 17, /* where each position needs cells of its own */
-  MOST_POINTS = 24,     /* of a cell, along each axis */
-  SPHERE = 4000,        /* directions of the measure of error */
-  TABLE = 4000          /* and of the table's own, at most */
+  MOST_SAMPLES = 1 << 23, /* of all pages, with as few positions as may be */
+  SHARES = 3,             /* directions of a cell, along each axis, for round bodies */
+  MOST_POINTS = 24,       /* of a cell, along each axis */
+  SPHERE = 4000,          /* directions of the measure of error */
+  TABLE = 4000            /* and of the table's own, at most */
 };
 
 static const double most_factor = 0.02;
+static const double still_better = 0.9; /* of the error before, to go on */
 
 void photometry_grid_free(struct photometry_grid *grid) {
   for (int n = 0; n < BODY_FACES; ++n) {
@@ -70,6 +71,7 @@ static double cell_mean(const struct photometry *lamp, const struct photometry_p
   return sum / weights;
 }
 
+/* The part of a page that sends light in a direction. */
 static double page_share(const struct photometry_pages *pages, int page, double s, double t) {
   const struct photometry_face *face = &pages->body.face[pages->page[page].face];
   double d[3];
@@ -77,6 +79,17 @@ static double page_share(const struct photometry_pages *pages, int page, double 
   photometry_direction(pages, page, s, t, d);
   return photometry_face_area(&pages->body, pages->page[page].face, d) /
          (face->size[0] * face->size[1] * dot(d, face->normal));
+}
+
+/* Its mean over a cell. */
+static double cell_share(const struct photometry_pages *pages, int page, const double low[2],
+                         const double step[2]) {
+  double sum = 0;
+  if (photometry_is_even(&pages->body)) return page_share(pages, page, low[0], low[1]);
+  for (int n = 0; n < SHARES * SHARES; ++n)
+    sum += page_share(pages, page, low[0] + (n % SHARES + 0.5) / SHARES * step[0],
+                      low[1] + (n / SHARES + 0.5) / SHARES * step[1]);
+  return sum / (SHARES * SHARES);
 }
 
 static enum result take_cells(const struct photometry *lamp, const struct photometry_pages *pages,
@@ -98,7 +111,7 @@ static enum result take_cells(const struct photometry *lamp, const struct photom
       double low[2] = {window[0] + k * step[0], window[2] + l * step[1]};
       size_t at = (size_t)l * (size_t)n[0] + (size_t)k;
       cells->mean[at] = cell_mean(lamp, pages, page, low, step, angle);
-      cells->share[at] = page_share(pages, page, low[0] + step[0] / 2, low[1] + step[1] / 2);
+      cells->share[at] = cell_share(pages, page, low, step);
     }
   return RESULT_OK;
 }
@@ -242,20 +255,22 @@ static void count_cells(const struct photometry_pages *pages, int page, int acro
 /* The pages that are off by most get finer cells, half as many again; false where that would be
  * too many. */
 static bool refine(const struct photometry_pages *pages, const double own[BODY_FACES],
-                   int across[BODY_FACES], bool changed[BODY_FACES]) {
-  size_t cells = 0;
+                   double tolerance, int across[BODY_FACES], bool changed[BODY_FACES]) {
+  int least = photometry_is_even(&pages->body) ? PHOTOMETRY_LEAST_EVEN : PHOTOMETRY_LEAST_ROUND;
+  double samples = 0;
   double most = 0;
   bool any = false;
   for (int p = 0; p < pages->count; ++p) most = fmax(most, own[p]);
   for (int p = 0; p < pages->count; ++p) {
-    int n[2];
-    changed[p] = own[p] >= most / 2 && across[p] < MOST;
+    int n[2], uv[2];
+    changed[p] = (own[p] >= most / 2 || own[p] > 2.5 * tolerance) && across[p] < MOST;
     if (changed[p]) across[p] += across[p] / 2;
     any = any || changed[p];
     count_cells(pages, p, across[p], n);
-    cells += (size_t)n[0] * (size_t)n[1];
+    photometry_positions(pages, p, least, uv);
+    samples += (double)uv[0] * uv[1] * n[0] * n[1];
   }
-  return any && cells <= (pages->body.shape == PHOTOMETRY_BOX ? MOST_CELLS : MOST_ROUND);
+  return any && samples <= MOST_SAMPLES;
 }
 
 /* The changed pages' cells, then what comes of all. */
@@ -274,19 +289,26 @@ static enum result take(const struct photometry *lamp, const struct photometry_p
   return result;
 }
 
+/* Whether the far field is right, or does not get better: where the table jumps, no grid follows. */
+static bool is_done(const struct photometry_grid_error *error, double tolerance, double before) {
+  return error->most95 <= tolerance &&
+         (error->most <= 2.5 * tolerance || error->most > still_better * before);
+}
+
 enum result photometry_grid(const struct photometry *lamp, const struct photometry_pages *pages,
                             const int st[2], double tolerance, struct photometry_grid *grid,
                             struct error *error) {
   int across[BODY_FACES];
   bool changed[BODY_FACES];
-  double own[BODY_FACES];
+  double own[BODY_FACES], before = INFINITY;
   *grid = (struct photometry_grid){0};
   for (int p = 0; p < pages->count; ++p) across[p] = LEAST, changed[p] = true;
   enum result result = take(lamp, pages, across, st, changed, grid, own, error);
-  while (result == RESULT_OK && !(st[0] > 0) &&
-         !(grid->error.most95 <= tolerance && grid->error.most <= 2.5 * tolerance) &&
-         refine(pages, own, across, changed))
+  while (result == RESULT_OK && !(st[0] > 0) && !is_done(&grid->error, tolerance, before) &&
+         refine(pages, own, tolerance, across, changed)) {
+    before = grid->error.most;
     result = take(lamp, pages, across, st, changed, grid, own, error);
+  }
   if (result == RESULT_OK) result = fit_flux(lamp, pages, grid, error);
   if (result == RESULT_OK) result = measure(lamp, pages, grid, own, error);
   return result;

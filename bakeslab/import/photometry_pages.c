@@ -3,8 +3,8 @@
  *     and sums the flux of each face by slope along u and along v.
  *  2. Cuts each of the four ends where the flux beyond it is a small part of the lamp's, and, where
  *     no other face could send it, where the intensity there is small too.
- *  3. Where more than that lies beyond the steepest slope of all on a flat opening, begins again
- *     with one that has sides. */
+ *  3. Where more than that lies beyond the steepest slope of all on an opening that is flat or
+ * thin, begins again with one that has sides, or thicker ones. */
 #include "import/photometry_pages.h"
 
 #include <math.h>
@@ -22,6 +22,8 @@ enum {
 static const double cut_flux = 0.0005, cut_shared = 0.002, cut_peak = 0.04;
 /* Slopes beyond which a neighbour may go on: it faces such directions more than the page does. */
 static const double least_shared = 2;
+/* Thin bodies' windows end here at the latest: their sides are bright beyond. */
+static const double most_thin = 8;
 /* Where a page fades: from this part of the slope at the end on. */
 static const double fade_from = 0.6;
 /* A flat opening may lose as much beyond STEEPEST. */
@@ -110,13 +112,14 @@ static double slope_of(int edge) {
 /* Which bins beyond an end are cut off: those, from the steepest on, that hold little; and, where a
  * neighbour goes on, steep ones that hold somewhat more. Returns how many. */
 static int cut_end(const struct survey *survey, const struct profile *profile, int axis, int sign,
-                   bool shared, double peak_cut) {
+                   bool shared, double peak_cut, bool thin) {
   double sum = 0;
   for (int n = 0; n < BINS - 2; ++n) {
     int bin = sign > 0 ? BINS - 1 - n : n;
     double slope = sign * slope_of(sign > 0 ? bin : bin + 1);
     bool others = shared && slope >= least_shared;
     sum += profile->flux[axis][bin];
+    if (thin && shared && slope >= most_thin) continue;
     if (sum > (others ? cut_shared : cut_flux) * survey->flux) return n;
     if (!others && profile->peak[axis][bin] > peak_cut * survey->peak) return n;
   }
@@ -124,13 +127,14 @@ static int cut_end(const struct survey *survey, const struct profile *profile, i
 }
 
 static void cut(const struct survey *survey, const struct photometry_body *body, double peak_cut,
-                struct photometry_page *page) {
+                bool thick, struct photometry_page *page) {
   const struct profile *profile = &survey->face[page->face];
   for (int axis = 0; axis < 2; ++axis) {
     int ends[2] = {0, BINS};
     for (int high = 0; high < 2; ++high) {
       int sign = high ? 1 : -1, other = neighbour(body, page->face, axis, sign);
-      int count = cut_end(survey, profile, axis, sign, other >= 0, peak_cut);
+      int count = cut_end(survey, profile, axis, sign, other >= 0, peak_cut,
+                          photometry_is_thin(body) || thick);
       ends[high] = high ? BINS - count : count;
       page->fades[2 * axis + high] = other >= 0 && sign * slope_of(ends[high]) > least_shared;
     }
@@ -138,13 +142,6 @@ static void cut(const struct survey *survey, const struct photometry_body *body,
     page->window[2 * axis] = slope_of(ends[0]);
     page->window[2 * axis + 1] = slope_of(ends[1]);
   }
-}
-
-/* Flat: nothing but one face each way can send light. */
-static bool is_flat(const struct photometry_body *body) {
-  int faces = 0;
-  for (int f = 0; f < BODY_FACES; ++f) faces += body->face[f].size[0] > 0;
-  return faces <= 2;
 }
 
 static bool loses(const struct survey *survey, const struct photometry_body *body) {
@@ -173,7 +170,7 @@ static void choose(const struct survey *survey, double tolerance, struct photome
     }
     if (flux <= cut_flux * survey->flux && peak <= peak_cut * survey->peak) continue;
     page->face = f;
-    cut(survey, &pages->body, peak_cut, page);
+    cut(survey, &pages->body, peak_cut, pages->thick, page);
     ++pages->count;
   }
 }
@@ -185,7 +182,7 @@ enum result photometry_pages(const struct photometry *lamp, double tolerance,
   *pages = (struct photometry_pages){0};
   photometry_body(lamp, false, &pages->body);
   look(lamp, &pages->body, survey);
-  if (is_flat(&pages->body) && loses(survey, &pages->body)) {
+  if (photometry_is_thin(&pages->body) && loses(survey, &pages->body)) {
     pages->thick = true;
     photometry_body(lamp, true, &pages->body);
     look(lamp, &pages->body, survey);
@@ -195,6 +192,13 @@ enum result photometry_pages(const struct photometry *lamp, double tolerance,
   free(survey);
   if (!dark && pages->count > 0) return RESULT_OK;
   return result_fail(error, RESULT_BAD, "the lamp has no light: all intensities are 0");
+}
+
+void photometry_positions(const struct photometry_pages *pages, int page, int along, int uv[2]) {
+  const struct photometry_face *face = &pages->body.face[pages->page[page].face];
+  double longer = fmax(face->size[0], face->size[1]);
+  for (int axis = 0; axis < 2; ++axis)
+    uv[axis] = (int)fmax(1, round(along * face->size[axis] / longer));
 }
 
 void photometry_direction(const struct photometry_pages *pages, int page, double s, double t,

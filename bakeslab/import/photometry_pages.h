@@ -24,13 +24,18 @@ struct photometry_pages {
   struct photometry_body body;
   int count;
   struct photometry_page page[BODY_FACES]; /* in the faces' order */
-  bool thick;                              /* the file's opening is flat, this one is not */
+  bool thick;                              /* the opening is thicker than the file says */
 };
 
 /* Chooses the pages. Flat openings get sides where too much of their light would run along them to
  * be held by a window. Refuses lamps without light. */
 enum result photometry_pages(const struct photometry *lamp, double tolerance,
                              struct photometry_pages *pages, struct error *error);
+
+/* Positions along both edges of a page, `along` of them on the longer. Pages that are alike
+ * everywhere in a direction do with few, others need LEAST_ROUND. */
+enum { PHOTOMETRY_LEAST_EVEN = 2, PHOTOMETRY_LEAST_ROUND = 12 };
+void photometry_positions(const struct photometry_pages *pages, int page, int along, int uv[2]);
 
 /* The direction (unit) of slopes on a page, and back; false behind it. */
 void photometry_direction(const struct photometry_pages *pages, int page, double s, double t,

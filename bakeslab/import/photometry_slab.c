@@ -9,17 +9,8 @@ enum {
   SAMPLES = 1 << 22, /* of all pages, unless the least number of positions needs more */
   EVEN = 8,          /* positions along the longer edge of a page that shines all over ... */
   ROUND = 16,        /* and of one that holds something round */
-  LEAST_EVEN = 2,
-  LEAST_ROUND = 12,
-  PARTS = 4 /* rows within a cell, and directions along each axis for round bodies */
+  PARTS = 4          /* rows within a cell, and directions along each axis for round bodies */
 };
-
-/* Positions along both edges, `along` of them on the longer one. */
-static void positions(const struct photometry_face *face, int along, int uv[2]) {
-  double longer = fmax(face->size[0], face->size[1]);
-  for (int axis = 0; axis < 2; ++axis)
-    uv[axis] = (int)fmax(1, round(along * face->size[axis] / longer));
-}
 
 static double samples_of(const struct photometry_pages *pages, const struct photometry_grid *grid,
                          int along) {
@@ -27,7 +18,7 @@ static double samples_of(const struct photometry_pages *pages, const struct phot
   for (int p = 0; p < pages->count; ++p) {
     const struct photometry_cells *cells = &grid->page[p];
     int uv[2];
-    positions(&pages->body.face[pages->page[p].face], along, uv);
+    photometry_positions(pages, p, along, uv);
     count += (double)uv[0] * uv[1] * cells->n[0] * cells->n[1];
   }
   return count;
@@ -37,7 +28,7 @@ static double samples_of(const struct photometry_pages *pages, const struct phot
 static int choose_along(const struct photometry *lamp, const struct photometry_pages *pages,
                         const struct photometry_grid *grid) {
   bool round = pages->body.shape != PHOTOMETRY_BOX;
-  int along = round ? ROUND : EVEN, least = round ? LEAST_ROUND : LEAST_EVEN;
+  int along = round ? ROUND : EVEN, least = round ? PHOTOMETRY_LEAST_ROUND : PHOTOMETRY_LEAST_EVEN;
   if (lamp->shape == PHOTOMETRY_POINT) return 1;
   while (along > least && samples_of(pages, grid, along) > SAMPLES) --along;
   return along;
@@ -58,8 +49,7 @@ static void view_cover(const struct photometry_pages *pages, int page, const str
   int face = pages->page[page].face, nu = slab->samples[SLAB_U], nv = slab->samples[SLAB_V];
   const double *size = pages->body.face[face].size;
   bool box = pages->body.shape == PHOTOMETRY_BOX;
-  bool flat = pages->body.shape == PHOTOMETRY_CYLINDER && !(pages->body.size[pages->body.axis] > 0);
-  int across = flat ? 1 : PARTS;
+  int across = photometry_is_even(&pages->body) ? 1 : PARTS;
   double step[2] = {slab_spacing(slab, SLAB_S), slab_spacing(slab, SLAB_T)}, range[2], d[3];
   for (int n = 0; n < nu * nv; ++n) part[n] = box ? 1 : 0;
   if (box) return;
@@ -129,7 +119,7 @@ enum result photometry_slabs(const struct photometry *lamp, const struct photome
   for (int p = 0; p < pages->count && result == RESULT_OK; ++p) {
     const struct photometry_cells *cells = &grid->page[p];
     int own[2] = {uv[0], uv[1]};
-    if (!(uv[0] > 0)) positions(&pages->body.face[pages->page[p].face], along, own);
+    if (!(uv[0] > 0)) photometry_positions(pages, p, along, own);
     made[p] = geometry(pages, p, cells, own);
     result = slab_check(&made[p], error);
     if (result == RESULT_OK) result = slab_alloc(&made[p], error);
