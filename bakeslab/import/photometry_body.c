@@ -148,7 +148,8 @@ static bool meet_cylinder(const double p[3], const double m[3], const double d[3
   int k = (n + 1) % 3, l = (n + 2) % 3;
   double found[2] = {0, 0}, across = hypot(d[k], d[l]);
   bool any = false;
-  for (int end = -1; end <= 1 && d[n] != 0; end += 2) {
+  /* The ends are seen, not edge on: far along a ray their discs would drown in roundings. */
+  for (int end = -1; end <= 1 && fabs(d[n]) > 1e-6 * across; end += 2) {
     /* where the ray meets the end's plane: q + x w */
     double step = (end - p[n]) / d[n], back = -m[n] / d[n], disc[2] = {-INFINITY, INFINITY};
     double q[2] = {p[k] + step * d[k], p[l] + step * d[l]};

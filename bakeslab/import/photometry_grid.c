@@ -14,16 +14,17 @@
 #include "slab/slab.h"
 
 enum {
-  LEAST = 24, /* cells along the widest window, to begin with */
+  LEAST = 24,       /* cells along the widest window, to begin with */
+  MOST_FIRST = 300, /* of round bodies, to begin with */
   MOST = 1024,
   MOST_SAMPLES = 1 << 23, /* of all pages, with as few positions as may be */
-  SHARES = 3,             /* directions of a cell, along each axis, for round bodies */
   MOST_POINTS = 24,       /* of a cell, along each axis */
   SPHERE = 4000,          /* directions of the measure of error */
   TABLE = 4000            /* and of the table's own, at most */
 };
 
-static const double most_factor = 0.02;
+static const double round_cell = 0.2;
+static const double most_factor = 0.05;
 static const double still_better = 0.9; /* of the error before, to go on */
 
 void photometry_grid_free(struct photometry_grid *grid) {
@@ -71,7 +72,8 @@ static double cell_mean(const struct photometry *lamp, const struct photometry_p
   return sum / weights;
 }
 
-/* The part of a page that sends light in a direction. */
+/* The part of a page that sends light in a direction. Of round bodies it has a cusp where the
+ * direction is the page's normal; a sample there, not a mean, keeps it when it is interpolated. */
 static double page_share(const struct photometry_pages *pages, int page, double s, double t) {
   const struct photometry_face *face = &pages->body.face[pages->page[page].face];
   double d[3];
@@ -79,17 +81,6 @@ static double page_share(const struct photometry_pages *pages, int page, double 
   photometry_direction(pages, page, s, t, d);
   return photometry_face_area(&pages->body, pages->page[page].face, d) /
          (face->size[0] * face->size[1] * dot(d, face->normal));
-}
-
-/* Its mean over a cell. */
-static double cell_share(const struct photometry_pages *pages, int page, const double low[2],
-                         const double step[2]) {
-  double sum = 0;
-  if (photometry_is_even(&pages->body)) return page_share(pages, page, low[0], low[1]);
-  for (int n = 0; n < SHARES * SHARES; ++n)
-    sum += page_share(pages, page, low[0] + (n % SHARES + 0.5) / SHARES * step[0],
-                      low[1] + (n / SHARES + 0.5) / SHARES * step[1]);
-  return sum / (SHARES * SHARES);
 }
 
 static enum result take_cells(const struct photometry *lamp, const struct photometry_pages *pages,
@@ -111,7 +102,7 @@ static enum result take_cells(const struct photometry *lamp, const struct photom
       double low[2] = {window[0] + k * step[0], window[2] + l * step[1]};
       size_t at = (size_t)l * (size_t)n[0] + (size_t)k;
       cells->mean[at] = cell_mean(lamp, pages, page, low, step, angle);
-      cells->share[at] = cell_share(pages, page, low, step);
+      cells->share[at] = page_share(pages, page, low[0] + step[0] / 2, low[1] + step[1] / 2);
     }
   return RESULT_OK;
 }
@@ -248,8 +239,8 @@ static enum result fit_flux(const struct photometry *lamp, const struct photomet
 static void count_cells(const struct photometry_pages *pages, int page, int across, int n[2]) {
   const double *window = pages->page[page].window;
   double s = window[1] - window[0], t = window[3] - window[2], wider = fmax(s, t);
-  n[0] = (int)fmax(8, ceil(across * s / wider));
-  n[1] = (int)fmax(8, ceil(across * t / wider));
+  n[0] = (int)fmax(8, ceil(across * s / wider)) | 1; /* odd: one has the normal in its middle */
+  n[1] = (int)fmax(8, ceil(across * t / wider)) | 1;
 }
 
 /* The pages that are off by most get finer cells, half as many again; false where that would be
@@ -263,7 +254,7 @@ static bool refine(const struct photometry_pages *pages, const double own[BODY_F
   for (int p = 0; p < pages->count; ++p) most = fmax(most, own[p]);
   for (int p = 0; p < pages->count; ++p) {
     int n[2], uv[2];
-    changed[p] = (own[p] >= most / 2 || own[p] > 2.5 * tolerance) && across[p] < MOST;
+    changed[p] = (own[p] >= most / 2 || own[p] > tolerance) && across[p] < MOST;
     if (changed[p]) across[p] += across[p] / 2;
     any = any || changed[p];
     count_cells(pages, p, across[p], n);
@@ -289,10 +280,23 @@ static enum result take(const struct photometry *lamp, const struct photometry_p
   return result;
 }
 
-/* Whether the far field is right, or does not get better: where the table jumps, no grid follows. */
-static bool is_done(const struct photometry_grid_error *error, double tolerance, double before) {
-  return error->most95 <= tolerance &&
-         (error->most <= 2.5 * tolerance || error->most > still_better * before);
+/* Whether the far field is right, or finer cells do not help: where the table jumps, and where
+ * light lies beyond the windows. */
+static bool is_done(const struct photometry_grid_error *error, const double own[BODY_FACES],
+                    int pages, double tolerance, double before) {
+  double most = 0;
+  for (int p = 0; p < pages; ++p) most = fmax(most, own[p]);
+  return most <= tolerance || (error->most95 <= tolerance && (error->most <= 2.5 * tolerance ||
+                                                              error->most > still_better * before));
+}
+
+/* Where positions differ, their directions tell near by what is seen: cells of round bodies have
+ * slopes of round_cell at most. */
+static int first_across(const struct photometry_pages *pages, int page) {
+  const double *window = pages->page[page].window;
+  double wider = fmax(window[1] - window[0], window[3] - window[2]);
+  if (photometry_is_even(&pages->body)) return LEAST;
+  return (int)fmin(fmax(LEAST, wider / round_cell), MOST_FIRST);
 }
 
 enum result photometry_grid(const struct photometry *lamp, const struct photometry_pages *pages,
@@ -302,9 +306,10 @@ enum result photometry_grid(const struct photometry *lamp, const struct photomet
   bool changed[BODY_FACES];
   double own[BODY_FACES], before = INFINITY;
   *grid = (struct photometry_grid){0};
-  for (int p = 0; p < pages->count; ++p) across[p] = LEAST, changed[p] = true;
+  for (int p = 0; p < pages->count; ++p) across[p] = first_across(pages, p), changed[p] = true;
   enum result result = take(lamp, pages, across, st, changed, grid, own, error);
-  while (result == RESULT_OK && !(st[0] > 0) && !is_done(&grid->error, tolerance, before) &&
+  while (result == RESULT_OK && !(st[0] > 0) &&
+         !is_done(&grid->error, own, pages->count, tolerance, before) &&
          refine(pages, own, tolerance, across, changed)) {
     before = grid->error.most;
     result = take(lamp, pages, across, st, changed, grid, own, error);

@@ -1,25 +1,27 @@
 /* photometry_pages.c -
  *  1. Shares out the intensities of a grid of directions among the faces, by their projected areas,
  *     and sums the flux of each face by slope along u and along v.
- *  2. Cuts each of the four ends where the flux beyond it is a small part of the lamp's, and, where
- *     no other face could send it, where the intensity there is small too.
- *  3. Where more than that lies beyond the steepest slope of all on an opening that is flat or
- * thin, begins again with one that has sides, or thicker ones. */
+ *  2. Cuts each of the four ends of a window where the flux beyond it is a small part of the lamp's
+ *     and the intensity there is small too.
+ *  3. Where too much lies beyond the steepest slope of all, neighbours take it over; what is flat
+ * or thin gets sides for that, or thicker ones, and step 1 begins again. */
 #include "import/photometry_pages.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 enum {
-  STEPS_C = 360, /* directions, in C and in gamma */
-  STEPS_GAMMA = 360,
+  STEPS_C = 240, /* directions, in C and in gamma */
+  STEPS_GAMMA = 240,
   BINS = 352,   /* of slopes: half degrees from -STEEPEST to STEEPEST */
   STEEPEST = 88 /* degrees */
 };
 
-/* Beyond an end: part of the lamp's flux; with other faces to take it over; and the intensity there
- * over the lamp's largest, where there are none. */
-static const double cut_flux = 0.0005, cut_shared = 0.002, cut_peak = 0.04;
+/* Beyond an end: part of the lamp's flux, and the intensity there over the lamp's largest (of flat
+ * ones, that lose it only along themselves, more); where a neighbour takes it over, part of the
+ * flux, or of the area in each direction: so much brighter the neighbour becomes there. */
+static const double cut_flux = 0.0005, cut_peak = 0.015, cut_flat = 0.04, cut_shared = 0.0002,
+                    cut_share = 0.015;
 /* Slopes beyond which a neighbour may go on: it faces such directions more than the page does. */
 static const double least_shared = 2;
 /* Thin bodies' windows end here at the latest: their sides are bright beyond. */
@@ -31,8 +33,9 @@ static const double lost_flux = 0.002, lost_peak = 0.05;
 
 /* What a face sends, by slope. */
 struct profile {
-  double flux[2][BINS]; /* along u, along v */
-  double peak[2][BINS]; /* largest intensity */
+  double flux[2][BINS];  /* along u, along v */
+  double peak[2][BINS];  /* largest intensity */
+  double share[2][BINS]; /* largest part of a direction's projected area */
   double beyond, beyond_peak;
 };
 
@@ -66,8 +69,7 @@ static void count_direction(const struct photometry_body *body, const double d[3
     struct profile *profile = &survey->face[f];
     double cosine = dot(d, face->normal), st[2];
     if (!(face->size[0] > 0) || !(cosine > 0) || candela == 0) continue;
-    /* an upper bound for round bodies */
-    double share = area > 0 ? fmin(1, face->size[0] * face->size[1] * cosine / area) : 1;
+    double share = area > 0 ? fmin(1, photometry_face_area(body, f, d) / area) : 1;
     double flux = share * fabs(candela) * solid_angle;
     face_slopes(face, d, cosine, st);
     int bin[2] = {bin_of(st[0]), bin_of(st[1])};
@@ -79,6 +81,7 @@ static void count_direction(const struct photometry_body *body, const double d[3
       if (bin[k] < 0) continue;
       profile->flux[k][bin[k]] += flux;
       profile->peak[k][bin[k]] = fmax(profile->peak[k][bin[k]], share * share_peak);
+      profile->share[k][bin[k]] = fmax(profile->share[k][bin[k]], share);
     }
   }
 }
@@ -97,50 +100,60 @@ static void look(const struct photometry *lamp, const struct photometry_body *bo
   }
 }
 
-/* The neighbour towards which u or v, times `sign`, points; -1 where there is none. */
-static int neighbour(const struct photometry_body *body, int face, int axis, int sign) {
+/* Whether the body has a face towards which u or v, times `sign`, points. */
+static bool has_neighbour(const struct photometry_body *body, int face, int axis, int sign) {
   const double *along = axis == 0 ? body->face[face].u : body->face[face].v;
   for (int f = 0; f < BODY_FACES; ++f)
-    if (body->face[f].size[0] > 0 && sign * dot(body->face[f].normal, along) > 0) return f;
-  return -1;
+    if (body->face[f].size[0] > 0 && sign * dot(body->face[f].normal, along) > 0) return true;
+  return false;
 }
 
 static double slope_of(int edge) {
   return tan((edge * 2.0 * STEEPEST / BINS - STEEPEST) * M_PI / 180);
 }
 
-/* Which bins beyond an end are cut off: those, from the steepest on, that hold little; and, where a
- * neighbour goes on, steep ones that hold somewhat more. Returns how many. */
+/* How many bins beyond an end are cut off: those, from the steepest on, that hold little. Where a
+ * neighbour takes them over, steep ones of which it has most, and of thin bodies all. */
 static int cut_end(const struct survey *survey, const struct profile *profile, int axis, int sign,
-                   bool shared, double peak_cut, bool thin) {
+                   const struct photometry_pages *pages, bool shared, double peak_cut) {
   double sum = 0;
   for (int n = 0; n < BINS - 2; ++n) {
     int bin = sign > 0 ? BINS - 1 - n : n;
     double slope = sign * slope_of(sign > 0 ? bin : bin + 1);
     bool others = shared && slope >= least_shared;
     sum += profile->flux[axis][bin];
-    if (thin && shared && slope >= most_thin) continue;
+    if (others && (profile->share[axis][bin] <= cut_share || (pages->thick && slope >= most_thin)))
+      continue;
     if (sum > (others ? cut_shared : cut_flux) * survey->flux) return n;
     if (!others && profile->peak[axis][bin] > peak_cut * survey->peak) return n;
   }
   return BINS - 2;
 }
 
-static void cut(const struct survey *survey, const struct photometry_body *body, double peak_cut,
-                bool thick, struct photometry_page *page) {
+/* Puts 0 into the middle of a window that is nearly so. */
+static void centre(double ends[2]) {
+  double longer = fmax(-ends[0], ends[1]), shorter = fmin(-ends[0], ends[1]);
+  if (shorter < longer / 2) return;
+  ends[0] = -longer;
+  ends[1] = longer;
+}
+
+static void cut(const struct survey *survey, const struct photometry_pages *pages, double peak_cut,
+                struct photometry_page *page) {
   const struct profile *profile = &survey->face[page->face];
   for (int axis = 0; axis < 2; ++axis) {
     int ends[2] = {0, BINS};
     for (int high = 0; high < 2; ++high) {
-      int sign = high ? 1 : -1, other = neighbour(body, page->face, axis, sign);
-      int count = cut_end(survey, profile, axis, sign, other >= 0, peak_cut,
-                          photometry_is_thin(body) || thick);
+      int sign = high ? 1 : -1;
+      bool shared = pages->shared && has_neighbour(&pages->body, page->face, axis, sign);
+      int count = cut_end(survey, profile, axis, sign, pages, shared, peak_cut);
       ends[high] = high ? BINS - count : count;
-      page->fades[2 * axis + high] = other >= 0 && sign * slope_of(ends[high]) > least_shared;
+      page->fades[2 * axis + high] = shared && sign * slope_of(ends[high]) > least_shared;
     }
     if (ends[0] >= ends[1]) ends[1] = ends[0] + 1;
     page->window[2 * axis] = slope_of(ends[0]);
     page->window[2 * axis + 1] = slope_of(ends[1]);
+    if (!photometry_is_even(&pages->body)) centre(page->window + 2 * axis);
   }
 }
 
@@ -157,8 +170,14 @@ static bool loses(const struct survey *survey, const struct photometry_body *bod
   return flux > lost_flux * survey->flux || held < (1 - lost_flux) * survey->flux;
 }
 
+static int count_faces(const struct photometry_body *body) {
+  int count = 0;
+  for (int f = 0; f < BODY_FACES; ++f) count += body->face[f].size[0] > 0;
+  return count;
+}
+
 static void choose(const struct survey *survey, double tolerance, struct photometry_pages *pages) {
-  double peak_cut = fmax(cut_peak, 2 * tolerance);
+  double peak_cut = fmax(count_faces(&pages->body) > 2 ? cut_peak : cut_flat, 0.75 * tolerance);
   pages->count = 0;
   for (int f = 0; f < BODY_FACES; ++f) {
     struct photometry_page *page = &pages->page[pages->count];
@@ -170,7 +189,7 @@ static void choose(const struct survey *survey, double tolerance, struct photome
     }
     if (flux <= cut_flux * survey->flux && peak <= peak_cut * survey->peak) continue;
     page->face = f;
-    cut(survey, &pages->body, peak_cut, pages->thick, page);
+    cut(survey, pages, peak_cut, page);
     ++pages->count;
   }
 }
@@ -182,7 +201,8 @@ enum result photometry_pages(const struct photometry *lamp, double tolerance,
   *pages = (struct photometry_pages){0};
   photometry_body(lamp, false, &pages->body);
   look(lamp, &pages->body, survey);
-  if (photometry_is_thin(&pages->body) && loses(survey, &pages->body)) {
+  pages->shared = loses(survey, &pages->body);
+  if (pages->shared && photometry_is_thin(&pages->body)) {
     pages->thick = true;
     photometry_body(lamp, true, &pages->body);
     look(lamp, &pages->body, survey);
@@ -195,10 +215,18 @@ enum result photometry_pages(const struct photometry *lamp, double tolerance,
 }
 
 void photometry_positions(const struct photometry_pages *pages, int page, int along, int uv[2]) {
-  const struct photometry_face *face = &pages->body.face[pages->page[page].face];
+  const struct photometry_body *body = &pages->body;
+  const struct photometry_face *face = &body->face[pages->page[page].face];
   double longer = fmax(face->size[0], face->size[1]);
-  for (int axis = 0; axis < 2; ++axis)
-    uv[axis] = (int)fmax(1, round(along * face->size[axis] / longer));
+  for (int axis = 0; axis < 2; ++axis) {
+    double part = face->size[axis] / longer;
+    const double *edge = axis == 0 ? face->u : face->v;
+    if (body->shape == PHOTOMETRY_CYLINDER && edge[body->axis] != 0)
+      part = fmax(part / 4, 2.0 / along);
+    else if (body->shape != PHOTOMETRY_BOX)
+      part = 1;
+    uv[axis] = (int)fmax(1, round(along * part));
+  }
 }
 
 void photometry_direction(const struct photometry_pages *pages, int page, double s, double t,
@@ -242,6 +270,7 @@ double photometry_radiance(const struct photometry *lamp, const struct photometr
   double held = 0, whole = 0;
   bool all = true;
   if (candela == 0) return 0;
+  if (!pages->shared) return candela / photometry_area(body, direction);
   double own = weight_of(pages, page, direction);
   if (!(own > 0)) return 0;
   for (int n = 0; n < pages->count; ++n)

@@ -9,7 +9,8 @@ enum {
   SAMPLES = 1 << 22, /* of all pages, unless the least number of positions needs more */
   EVEN = 8,          /* positions along the longer edge of a page that shines all over ... */
   ROUND = 16,        /* and of one that holds something round */
-  PARTS = 4          /* rows within a cell, and directions along each axis for round bodies */
+  ROWS = 4,          /* within a position */
+  TURNS = 2          /* directions within a cell, along each axis, for round bodies */
 };
 
 static double samples_of(const struct photometry_pages *pages, const struct photometry_grid *grid,
@@ -49,7 +50,7 @@ static void view_cover(const struct photometry_pages *pages, int page, const str
   int face = pages->page[page].face, nu = slab->samples[SLAB_U], nv = slab->samples[SLAB_V];
   const double *size = pages->body.face[face].size;
   bool box = pages->body.shape == PHOTOMETRY_BOX;
-  int across = photometry_is_even(&pages->body) ? 1 : PARTS;
+  int across = photometry_is_even(&pages->body) ? 1 : TURNS;
   double step[2] = {slab_spacing(slab, SLAB_S), slab_spacing(slab, SLAB_T)}, range[2], d[3];
   for (int n = 0; n < nu * nv; ++n) part[n] = box ? 1 : 0;
   if (box) return;
@@ -57,10 +58,9 @@ static void view_cover(const struct photometry_pages *pages, int page, const str
     double s = slab_position(slab, SLAB_S, k) + ((n % across + 0.5) / across - 0.5) * step[0];
     double t = slab_position(slab, SLAB_T, l) + ((n / across + 0.5) / across - 0.5) * step[1];
     photometry_direction(pages, page, s, t, d);
-    for (int row = 0; row < nv * PARTS; ++row)
-      if (photometry_row(&pages->body, face, d, ((row + 0.5) / (nv * PARTS) - 0.5) * size[1],
-                         range))
-        cover(part + row / PARTS * nu, nu, size[0], range, 1.0 / (PARTS * across * across));
+    for (int row = 0; row < nv * ROWS; ++row)
+      if (photometry_row(&pages->body, face, d, ((row + 0.5) / (nv * ROWS) - 0.5) * size[1], range))
+        cover(part + row / ROWS * nu, nu, size[0], range, 1.0 / (ROWS * across * across));
   }
 }
 
