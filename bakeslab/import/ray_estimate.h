@@ -1,0 +1,50 @@
+/* ray_estimate.h - from the rays that leave through one page to its samples, the mean radiance of
+ * each cell, with the error that is told.
+ *
+ * Rays come one at a time and are summed on the page's grid, so that memory does not grow with
+ * their number. Fluxes and radiances are in the page's units: W and W/(sr m2), lm and cd/m2;
+ * lengths are in lamp units, as in slab.h. */
+#ifndef RAY_ESTIMATE_H
+#define RAY_ESTIMATE_H
+
+#include "slab/slab.h"
+
+struct ray_estimate; /* the rays of one page */
+
+/* For the geometry of `page` (slab.h; it is copied, and its samples are not read). With a
+ * tolerance > 0 the samples are the finest that may be chosen, else those that will be given.
+ * `coloured`: fluxes differ between red, green and blue. */
+enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance,
+                             struct ray_estimate **estimate, struct error *error);
+void ray_estimate_free(struct ray_estimate *estimate);
+
+/* Adds a ray through (a, b, s, t), as slab_ray gives it, that carries the flux rgb[3] (linear
+ * Rec. 709; where not coloured, rgb[1] is read alone). False, and nothing is added, where it passes
+ * outside the rectangle or the window, or where its luminance is not positive and finite. */
+bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES],
+                      const double rgb[3]);
+
+struct ray_estimate_told {
+  unsigned long long rays; /* that were added */
+  double flux[3];          /* of them; slab_flux_metric of the samples is the same to 1e-6 */
+  int samples[SLAB_AXES];  /* of the slab */
+  double noise; /* RMS error of the samples' luminance, weighted by etendue, over their RMS: by the
+                   number of rays, and by what is averaged to make up for it */
+  double held_out; /* the same for samples of the rays but one in four, as that fourth shows it;
+                      NAN: it shows nothing (there are too few) */
+  double blur;     /* the same for what the samples' finite size loses; NAN where they were given */
+  double error;    /* all of it together */
+  double bins;     /* noise of plain bins, the mean of each cell's own rays, for comparison */
+  double square;   /* integral of the squared luminance over the etendue, to weight pages by */
+  double flux_noise; /* standard error of the flux by the number of rays, relative */
+  double
+      sample_noise; /* RMS error of the samples, absolute, each counting alike (slab_sampling.h) */
+};
+
+/* The samples: fills slab->rgb of a new slab, which the caller frees, with the geometry of the page
+ * and no JSON but "samples_are". With a tolerance > 0, the fewest samples for which told->error is
+ * at most that, or those of the least error. No ray at all gives a dark slab, and errors of 0. */
+enum result ray_estimate_finish(struct ray_estimate *estimate, struct slab *slab,
+                                struct ray_estimate_told *told, struct error *error);
+
+#endif
