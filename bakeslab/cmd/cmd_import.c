@@ -1,15 +1,22 @@
 /* cmd_import.c - bakeslab import: light that was measured, or simulated elsewhere, as a slab. */
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/numbers.h"
 #include "base/output.h"
 #include "cmd/slab_options.h"
 #include "file/slab_file.h"
 #include "import/import.h"
 
+/* The four options that make a page of rays. */
+enum { CENTER, U, V, NORMAL, PAGE_OPTIONS };
+
 struct arguments {
   const char **files; /* grows; owned */
   int file_count;
   const char *output;
+  int given[PAGE_OPTIONS]; /* how often */
+  int unit;                /* of metres[] */
   enum slab_precision precision;
   struct import_wish wish;
 };
@@ -34,6 +41,21 @@ static const struct argp_option options[] = {
      "Photometric files: turn the distribution about the vertical, from C0 towards C90, where a "
      "maker laid it across the opening",
      3},
+    {"center", KEY(given[CENTER]), "X,Y,Z", 0,
+     "Ray files: centre of a page. Give it, --u, --v and --normal once for each page. Default: the "
+     "best rectangle",
+     4},
+    {"u", KEY(given[U]), "X,Y,Z", 0, "Ray files: edge of a page", 4},
+    {"v", KEY(given[V]), "X,Y,Z", 0, "Ray files: its other edge, at a right angle", 4},
+    {"normal", KEY(given[NORMAL]), "X,Y,Z", 0, "Ray files: where the page's light goes", 4},
+    {"box", KEY(wish.box), NULL, 0,
+     "Ray files: the pages are those faces of the box around the rays' origins through which "
+     "light leaves",
+     4},
+    {"unit", KEY(unit), "m|mm|cm|in|ft", 0,
+     "Ray files: unit of a text's lengths, and of pages given here (default: m); the slab is in "
+     "metres",
+     4},
     {0}};
 
 static const char doc[] =
@@ -57,6 +79,8 @@ static const struct value values[] = {
     {KEY(wish.lumens), VALUE_POSITIVE, ARGUMENT(wish.lumens), 0, 0},
     {KEY(wish.kelvin), VALUE_REAL, ARGUMENT(wish.kelvin), 1000, 15000},
     {KEY(wish.turn), VALUE_WORD, ARGUMENT(wish.turn), 1, 0},
+    {KEY(wish.box), VALUE_FLAG, ARGUMENT(wish.box), 0, 0},
+    {KEY(unit), VALUE_WORD, ARGUMENT(unit), 0, 0},
     {0}};
 
 static void add_file(struct arguments *arguments, const char *file) {
@@ -65,6 +89,30 @@ static void add_file(struct arguments *arguments, const char *file) {
   if (!files) cli_out_of_memory();
   arguments->files = files;
   files[arguments->file_count++] = file;
+}
+
+/* A vector of the next page that has none yet. */
+static void add_vector(struct argp_state *state, struct arguments *arguments, int option,
+                       const char *text) {
+  static const char *const names[PAGE_OPTIONS] = {"center", "u", "v", "normal"};
+  double vector[3];
+  if (!numbers_real(text, 3, vector))
+    argp_error(state, "--%s %s: must be three numbers, as in 0,0.5,0", names[option], text);
+  int page = arguments->given[option]++;
+  if (page >= IMPORT_APERTURES) argp_error(state, "more than %d pages", IMPORT_APERTURES);
+  struct import_aperture *aperture = &arguments->wish.apertures[page];
+  double *vectors[PAGE_OPTIONS] = {aperture->center, aperture->u, aperture->v, aperture->normal};
+  memcpy(vectors[option], vector, sizeof vector);
+}
+
+static void check_arguments(struct argp_state *state, struct arguments *arguments) {
+  const int *given = arguments->given;
+  if (!arguments->output) argp_error(state, "no output given: -o SLAB");
+  for (int option = 0; option < PAGE_OPTIONS; ++option)
+    if (given[option] != given[CENTER])
+      argp_error(state, "give each of --center, --u, --v and --normal once for each page");
+  if (given[CENTER] > 0 && arguments->wish.box)
+    argp_error(state, "--box and --center: give one of them");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state) {
@@ -77,7 +125,19 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     argp_error(state, "no file given");
     return 0;
   case ARGP_KEY_SUCCESS:
-    if (!arguments->output) argp_error(state, "no output given: -o SLAB");
+    check_arguments(state, arguments);
+    return 0;
+  case KEY(given[CENTER]):
+    add_vector(state, arguments, CENTER, text);
+    return 0;
+  case KEY(given[U]):
+    add_vector(state, arguments, U, text);
+    return 0;
+  case KEY(given[V]):
+    add_vector(state, arguments, V, text);
+    return 0;
+  case KEY(given[NORMAL]):
+    add_vector(state, arguments, NORMAL, text);
     return 0;
   default:
     return values_take(values, options, key, text, arguments, state);
@@ -88,6 +148,9 @@ static void tell(const char *line) {
   cli_note("%s", line);
 }
 
+/* Of the units of length, in the order of --unit's words. */
+static const double metres[] = {1, 0.001, 0.01, 0.0254, 0.3048};
+
 static enum result run(void *input, struct error *error) {
   struct arguments *arguments = input;
   struct warnings notes = {.tell = tell};
@@ -97,6 +160,8 @@ static enum result run(void *input, struct error *error) {
   wish->file_count = arguments->file_count;
   wish->notes = &notes;
   wish->turn *= 90;
+  wish->aperture_count = arguments->given[CENTER];
+  wish->metres = metres[arguments->unit];
   enum result result = output_check(&arguments->output, 1, wish->files, wish->file_count, error);
   if (result == RESULT_OK)
     result = slab_file_check_target(arguments->output, arguments->precision, error);

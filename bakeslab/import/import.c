@@ -8,9 +8,11 @@
 #include "base/sdl.h"
 #include "import/import_photometry.h"
 #include "import/import_provenance.h"
+#include "import/import_rays.h"
 
 /* The first that knows a file has it: those that are sure by a magic word come first. */
-static const struct import_kind *const kinds[] = {&import_ies, &import_eulumdat};
+static const struct import_kind *const kinds[] = {&import_tm25, &import_zemax, &import_ies,
+                                                  &import_eulumdat, &import_ray_text};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 static enum result read_head(const char *path, char *head, size_t *size, struct error *error) {

@@ -11,6 +11,12 @@
 
 enum { IMPORT_HEAD = 65536 }; /* bytes of a file by which its kind is known, at most */
 
+/* A page that rays are carried to; lengths in the wish's unit. */
+struct import_aperture {
+  double center[3], u[3], v[3], normal[3];
+};
+enum { IMPORT_APERTURES = 64 };
+
 /* What the user wants. Numbers that are 0 were not given. */
 struct import_wish {
   const char *const *files;
@@ -20,7 +26,11 @@ struct import_wish {
   double lumens;    /* photometric files: rescales the flux */
   double kelvin;    /* photometric files: colour, of a black body */
   int turn;         /* photometric files: turns the distribution about the vertical, degrees */
-  const char *name; /* of the slabs; NULL: from the first file's name */
+  struct import_aperture apertures[IMPORT_APERTURES]; /* ray files: pages */
+  int aperture_count;
+  bool box;               /* ray files: pages are the faces of the box of the rays' origins */
+  double metres;          /* ray files: per unit of the apertures' lengths, and of a text's */
+  const char *name;       /* of the slabs; NULL: from the first file's name */
   struct warnings *notes; /* what the user may not expect; told as it comes */
 };
 
