@@ -59,9 +59,11 @@ static enum result read_file(struct lamp *lamp, int number, use_rays *use, struc
   }
   double flux = ray_luminance(lamp->look.flux) - before;
   if (result == RESULT_OK && flux > 0 && fabs(file.stated / flux - 1) > 0.01)
-    warnings_add(wish->notes,
-                 "%s: note: its rays carry %.6g %s, its header says %.6g; theirs is taken", path,
-                 flux, file.lumens ? "lm" : "W", file.stated);
+    warnings_add(
+        wish->notes,
+        "%s: note: its rays carry %.6g %s, its header says %.6g: the rays count (--lumens X "
+        "rescales them)",
+        path, flux, file.lumens ? "lm" : "W", file.stated);
   ray_file_close(&file);
   return result;
 }
@@ -155,7 +157,7 @@ static void tell_missed(const struct lamp *lamp) {
   if (lamp->beyond > 0)
     warnings_add(
         wish->notes,
-        "%s: note: %llu of %llu rays, with %.4g %s (%.3g %%), graze a page and are left out",
+        "%s: note: %llu of %llu rays, with %.4g %s (%.3g %%), leave outside the pages' windows",
         wish->files[0], lamp->beyond, lamp->look.rays, lamp->beyond_flux, unit,
         100 * lamp->beyond_flux / all);
 }

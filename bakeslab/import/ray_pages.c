@@ -8,13 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double negligible_window = 1.0 / 800, negligible_rectangle = 1.0 / 400;
+static const double negligible_window = 1.0 / 800, negligible_rectangle = 1.0 / 400,
+                    negligible_page = 1e-4;
 /* A range this much longer than that of most of the light is not taken whole. */
-static const double much_longer = 1.25;
+static const double much_longer = 1.1;
 static const double margin = 0.005; /* of the range, at each end */
 /* Boxes are flat where they are this much thinner than long; a line or a point gets a thickness. */
 static const double flat = 1e-6, thickness = 1e-3;
-static const double point_size = 1e-3;     /* metres */
+static const double reach = 15; /* of windows: rays at less than 4 degrees to a page are left out */
+static const double point_size = 1e-3; /* metres */
+/* Rays that are this little beside a rectangle are moved to this little within. */
+static const double on_edge = 1 + 1e-6, within = 1 + 1e-9;
 static const double square_to_axis = 0.94; /* cosine of 20 degrees */
 
 static double dot(const double x[3], const double y[3]) {
@@ -23,6 +27,10 @@ static double dot(const double x[3], const double y[3]) {
 
 static double length(const double x[3]) {
   return hypot(hypot(x[0], x[1]), x[2]);
+}
+
+static double clamp(double x, double most) {
+  return fmax(-most, fmin(most, x));
 }
 
 enum result ray_pages_add(struct ray_pages *pages, const double center[3], const double u[3],
@@ -39,8 +47,8 @@ enum result ray_pages_add(struct ray_pages *pages, const double center[3], const
   for (int c = 0; c < 3; ++c) slab->normal[c] = normal[c] / n;
   enum result result = slab_check(slab, error);
   if (result != RESULT_OK) return result_at(result, error, "page %d", pages->count + 1);
-  page->half[0] = length(u) / 2 * (1 + 1e-6);
-  page->half[1] = length(v) / 2 * (1 + 1e-6);
+  page->half[0] = length(u) / 2;
+  page->half[1] = length(v) / 2;
   for (int c = 0; c < 3; ++c) {
     page->u[c] = u[c] / length(u);
     page->v[c] = v[c] / length(v);
@@ -62,9 +70,9 @@ int ray_pages_find(const struct ray_pages *pages, const struct ray *ray, double 
     if (!(fabs(steps) < closest)) continue;
     double slope_u = dot(ray->direction, page->u), slope_v = dot(ray->direction, page->v);
     double a = dot(point, page->u) + steps * slope_u, b = dot(point, page->v) + steps * slope_v;
-    if (!(fabs(a) <= page->half[0] && fabs(b) <= page->half[1])) continue;
-    abst[0] = a / (1 + 1e-6); /* onto the rectangle, where it was on its edge */
-    abst[1] = b / (1 + 1e-6);
+    if (!(fabs(a) <= on_edge * page->half[0] && fabs(b) <= on_edge * page->half[1])) continue;
+    abst[0] = clamp(a, page->half[0] / within); /* onto the rectangle, where it was on its edge */
+    abst[1] = clamp(b, page->half[1] / within);
     abst[2] = slope_u / forward;
     abst[3] = slope_v / forward;
     closest = fabs(steps);
@@ -140,17 +148,18 @@ static enum result add_face(struct ray_pages *pages, const double low[3], const 
   return ray_pages_add(pages, center, u, v, normal, error);
 }
 
-/* Takes away the pages that no kept ray reaches. */
+/* Takes away the pages that next to no light reaches. */
 static void leave_out_dark(const struct ray_look *look, struct ray_pages *pages) {
-  bool lit[RAY_PAGES_MOST] = {false};
-  double abst[SLAB_AXES];
+  double flux[RAY_PAGES_MOST] = {0}, all = 0, abst[SLAB_AXES];
   int kept = 0;
   for (size_t n = 0; n < look->kept_count; ++n) {
     int found = ray_pages_find(pages, &look->kept[n], abst);
-    if (found >= 0) lit[found] = true;
+    double luminance = ray_luminance(look->kept[n].flux);
+    all += luminance;
+    if (found >= 0) flux[found] += luminance;
   }
   for (int n = 0; n < pages->count; ++n)
-    if (lit[n]) pages->page[kept++] = pages->page[n];
+    if (flux[n] > negligible_page * all) pages->page[kept++] = pages->page[n];
   pages->count = kept;
 }
 
@@ -198,7 +207,7 @@ static void find_across(const double normal[3], double across[2][3]) {
     v[c] = normal[(c + 1) % 3] * u[(c + 2) % 3] - normal[(c + 2) % 3] * u[(c + 1) % 3];
 }
 
-/* Along the normal: the virtual focus, but within the box. */
+/* Along the normal: the virtual focus, but within the box or close to it. */
 static double find_height(const struct ray_look *look, const double normal[3]) {
   double focus[3], lowest = 0, highest = 0;
   for (int c = 0; c < 3; ++c) {
@@ -206,8 +215,9 @@ static double find_height(const struct ray_look *look, const double normal[3]) {
     lowest += fmin(at_low, at_high);
     highest += fmax(at_low, at_high);
   }
+  double near = 0.1 * (highest - lowest);
   double height = ray_look_focus(look, focus) ? dot(focus, normal) : (lowest + highest) / 2;
-  return fmax(lowest, fmin(highest, height));
+  return fmax(lowest - near, fmin(highest + near, height));
 }
 
 /* The rectangle on a plane at `height`, square to a normal, that holds the kept rays. */
@@ -277,16 +287,18 @@ enum result ray_pages_windows(const struct ray_look *look, struct ray_pages *pag
       size_t count = find_slopes(look, pages, n, SLAB_S + axis, values);
       double *window = pages->page[n].geometry.st_window + 2 * axis;
       if (count == 0) {
-        result = result_fail(error, RESULT_BAD,
-                             "page %d: no ray reaches it: look at --center, --u, --v and --normal",
-                             n + 1);
+        result = result_fail(
+            error, RESULT_BAD,
+            "page %d: no ray reaches it: check its --center, --u, --v and --normal", n + 1);
         break;
       }
       find_range(values, count, negligible_window, window);
-      double least = thickness * fmax(1, fabs(window[0]));
-      if (window[1] - window[0] < least) { /* parallel rays */
-        window[0] -= least / 2;
-        window[1] += least / 2;
+      window[0] = fmin(fmax(window[0], -reach), reach);
+      window[1] = fmin(fmax(window[1], -reach), reach);
+      double lacks = thickness * fmax(1, fabs(window[0])) - (window[1] - window[0]);
+      if (lacks > 0) { /* parallel rays */
+        window[0] -= lacks / 2;
+        window[1] += lacks / 2;
       }
     }
   free(values);

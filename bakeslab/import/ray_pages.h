@@ -13,7 +13,7 @@ enum { RAY_PAGES_MOST = IMPORT_APERTURES };
 struct ray_page {
   struct slab geometry; /* without samples; owns nothing */
   double u[3], v[3];    /* unit vectors */
-  double half[2];       /* of the edges' lengths, and the least bit */
+  double half[2];       /* the edges' half lengths */
 };
 
 struct ray_pages {
@@ -25,7 +25,7 @@ struct ray_pages {
 enum result ray_pages_add(struct ray_pages *pages, const double center[3], const double u[3],
                           const double v[3], const double normal[3], struct error *error);
 
-/* The faces of the box of the rays' origins through which some leave. */
+/* The faces of the box of the rays' origins through which more than 1/10000 of the light leaves. */
 enum result ray_pages_box(const struct ray_look *look, struct ray_pages *pages,
                           struct error *error);
 
