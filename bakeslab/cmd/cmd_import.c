@@ -33,8 +33,8 @@ static const struct argp_option options[] = {
     {"tolerance", KEY(wish.tolerance), "T", 0,
      "Choose the number of samples so that the error is at most T (0.02 is 2 %)", 2},
     {"name", 'n', "NAME", 0, "The lamp's name (default: that of the first file)", 2},
-    {"lumens", KEY(wish.lumens), "X", 0, "Photometric files: rescale the light to a flux of X lm",
-     3},
+    {"lumens", KEY(wish.lumens), "X", 0,
+     "Photometric and ray files: rescale the light to a flux of X lm", 3},
     {"kelvin", KEY(wish.kelvin), "K", 0,
      "Photometric files: the colour of a black body of K kelvin (default: white)", 3},
     {"turn", KEY(wish.turn), "90|180|270", 0,
@@ -60,14 +60,29 @@ static const struct argp_option options[] = {
 
 static const char doc[] =
     "Makes a light slab from light that was measured, or simulated elsewhere. The kind of the "
-    "files is found from their content: IES LM-63, EULUMDAT."
+    "files is found from their content: IES LM-63, EULUMDAT; TM-25, Zemax binary source files, "
+    "rays as text."
     "\v"
     "Photometric files (IES LM-63 of 1986 to 2019, EULUMDAT) give a slab in metres, in cd/m2. "
     "Gamma 0 is -y, C0 is +x, C90 is +z.\n"
     "\n"
+    "Ray files give a slab in metres, in W/(sr m2) where their rays carry watts, in cd/m2 where "
+    "they "
+    "carry lumens: TM-25 (.tm25ray), Zemax binary source files (.dat, .sdf), and text, a ray `x y "
+    "z dx dy dz flux` "
+    "a line, in watts, with comments from # on. Rays are carried along their lines to the pages: "
+    "those given, the faces of a box, or the best rectangle. "
+    "Those that reach none are told, with their flux. Several files are one lamp. Axes stay those "
+    "of the file. TM-25 and Zemax are right-handed, "
+    "so that such a lamp becomes its mirror image: where that shows, mirror the light where you "
+    "place it (scale <1, 1, -1>).\n"
+    "\n"
     "Examples:\n"
     "  bakeslab import downlight.ies -o downlight.tif\n"
-    "  bakeslab import trough.ldt -o trough.tif --turn 90 --kelvin 4000";
+    "  bakeslab import trough.ldt -o trough.tif --turn 90 --kelvin 4000\n"
+    "  bakeslab import led.tm25ray -o led.tif\n"
+    "  bakeslab import led.txt -o led.tif --unit mm --center 0,0,2 --u 3,0,0 \\\n"
+    "    --v 0,3,0 --normal 0,0,1";
 
 static const struct value values[] = {
     {'o', VALUE_TEXT, ARGUMENT(output), 0, 0},

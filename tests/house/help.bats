@@ -54,6 +54,8 @@ stands() {
   mkdir lamps && cp lamp.tif lamps
   oiiotool --create 64x48 3 --fill:color=0.9,0.5,0.1 32x48+0+0 -o slide.png -o film.jpg
   echo '0 -1 0  0 -1 0' | tee rays.txt >receivers.txt
+  printf '%s 0 0 %s 0.1 1 1\n' -0.5 0.2 0.5 -0.2 0.1 0.3 0 0 >led.txt
+  cp led.txt led.tm25ray # what a file is, its content tells
   for program in "$BAKESLAB" "$RENDERSLAB"; do
     for command in $(commands "$program"); do
       examples "$program" "$command" >lines
