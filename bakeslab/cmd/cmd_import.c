@@ -159,8 +159,10 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
+static const char *first_file; /* of those that are read */
+
 static void tell(const char *line) {
-  cli_note("%s", line);
+  cli_note("%s: note: %s", first_file, line);
 }
 
 /* Of the units of length, in the order of --unit's words. */
@@ -172,6 +174,7 @@ static enum result run(void *input, struct error *error) {
   struct import_wish *wish = &arguments->wish;
   struct import_light light = {0};
   wish->files = arguments->files;
+  first_file = wish->files[0];
   wish->file_count = arguments->file_count;
   wish->notes = &notes;
   wish->turn *= 90;

@@ -65,6 +65,18 @@ static enum result find_common_kind(const struct import_wish *wish, const struct
   return result;
 }
 
+/* Options that say nothing to a kind are refused. */
+static enum result check_wish(const struct import_wish *wish, const struct import_kind *kind,
+                              struct error *error) {
+  const char *what = NULL;
+  if (kind->family != IMPORT_PHOTOMETRIC && (wish->kelvin > 0 || wish->turn))
+    what = "--kelvin and --turn are for photometric files";
+  if (kind->family != IMPORT_RAYS && (wish->aperture_count > 0 || wish->box))
+    what = "--center, --u, --v, --normal and --box are for ray files";
+  if (!what) return RESULT_OK;
+  return result_fail(error, RESULT_BAD, "%s: %s; this one is %s", wish->files[0], what, kind->name);
+}
+
 /* The slabs' name: what is asked for, or the first file's without folder and ending. */
 static void set_names(const struct import_wish *wish, struct import_light *light) {
   const char *from = wish->name ? wish->name : wish->files[0], *slash = strrchr(from, '/');
@@ -81,6 +93,7 @@ enum result import_files(const struct import_wish *wish, const char *command,
   const struct import_kind *kind;
   *light = (struct import_light){0};
   enum result result = find_common_kind(wish, &kind, error);
+  if (result == RESULT_OK) result = check_wish(wish, kind, error);
   if (result == RESULT_OK) result = kind->slabs(wish, light, error);
   if (result == RESULT_OK) {
     set_names(wish, light);

@@ -52,6 +52,9 @@ struct import_light {
   struct import_story story;
 };
 
+/* Each has options of its own. */
+enum import_family { IMPORT_PHOTOMETRIC, IMPORT_RAYS };
+
 struct import_kind {
   const char *name; /* as provenance.import says */
   /* Whether a file is of this kind, by its first `size` bytes (up to IMPORT_HEAD; a zero
@@ -61,6 +64,7 @@ struct import_kind {
   /* Reads wish->files. Messages of failures name file and line or byte. */
   enum result (*slabs)(const struct import_wish *wish, struct import_light *light,
                        struct error *error);
+  enum import_family family;
 };
 
 #endif

@@ -15,7 +15,7 @@
 #include "import/ray_estimate.h"
 #include "import/ray_pages.h"
 
-enum { AT_A_TIME = 1024, DEFAULT_UV = 16, DEFAULT_ST = 64 };
+enum { AT_A_TIME = 1024, KEPT = 1 << 17, DEFAULT_UV = 16, DEFAULT_ST = 64 };
 
 /* The work on one lamp. */
 struct lamp {
@@ -59,11 +59,10 @@ static enum result read_file(struct lamp *lamp, int number, use_rays *use, struc
   }
   double flux = ray_luminance(lamp->look.flux) - before;
   if (result == RESULT_OK && flux > 0 && fabs(file.stated / flux - 1) > 0.01)
-    warnings_add(
-        wish->notes,
-        "%s: note: its rays carry %.6g %s, its header says %.6g: the rays count (--lumens X "
-        "rescales them)",
-        path, flux, file.lumens ? "lm" : "W", file.stated);
+    warnings_add(wish->notes,
+                 "its rays carry %.6g %s, its header says %.6g: the rays count (--lumens X "
+                 "rescales them)",
+                 flux, file.lumens ? "lm" : "W", file.stated);
   ray_file_close(&file);
   return result;
 }
@@ -83,7 +82,7 @@ static void look_at(struct lamp *lamp, const struct ray *rays, size_t count) {
 
 static enum result look(struct lamp *lamp, struct error *error) {
   const struct import_wish *wish = lamp->wish;
-  enum result result = ray_look_new(&lamp->look, error);
+  enum result result = ray_look_new(&lamp->look, KEPT, error);
   if (result == RESULT_OK) result = read_files(lamp, look_at, error);
   double flux = ray_luminance(lamp->look.flux);
   if (result == RESULT_OK && !(flux > 0 && isfinite(flux)))
@@ -149,17 +148,14 @@ static void tell_missed(const struct lamp *lamp) {
   const char *unit = in_lumens(lamp) ? "lm" : "W";
   double all = lamp->factor * ray_luminance(lamp->look.flux);
   if (lamp->missed > 0)
-    warnings_add(wish->notes,
-                 "%s: note: %llu of %llu rays, with %.4g %s (%.3g %%), reach no page%s",
-                 wish->files[0], lamp->missed, lamp->look.rays, lamp->missed_flux, unit,
+    warnings_add(wish->notes, "%llu of %llu rays, with %.4g %s (%.3g %%), reach no page%s",
+                 lamp->missed, lamp->look.rays, lamp->missed_flux, unit,
                  100 * lamp->missed_flux / all,
                  wish->box || lamp->missed_flux < 0.02 * all ? "" : "; --box has pages all round");
   if (lamp->beyond > 0)
     warnings_add(
-        wish->notes,
-        "%s: note: %llu of %llu rays, with %.4g %s (%.3g %%), leave outside the pages' windows",
-        wish->files[0], lamp->beyond, lamp->look.rays, lamp->beyond_flux, unit,
-        100 * lamp->beyond_flux / all);
+        wish->notes, "%llu of %llu rays, with %.4g %s (%.3g %%), leave outside the pages' windows",
+        lamp->beyond, lamp->look.rays, lamp->beyond_flux, unit, 100 * lamp->beyond_flux / all);
 }
 
 /* ---- Step 4 ---- */
@@ -225,9 +221,6 @@ static enum result finish(struct lamp *lamp, struct import_light *light, struct 
 static enum result import(const struct import_wish *wish, const struct ray_format *format,
                           struct import_light *light, struct error *error) {
   struct lamp lamp = {.wish = wish, .format = format, .factor = 1};
-  if (wish->kelvin > 0 || wish->turn)
-    return result_fail(error, RESULT_BAD, "%s: --kelvin and --turn are for photometric files",
-                       wish->files[0]);
   enum result result = look(&lamp, error);
   if (result == RESULT_OK) result = lay_pages(&lamp, error);
   if (result == RESULT_OK) result = read_files(&lamp, carry, error);
@@ -270,6 +263,6 @@ static enum result ray_text_slabs(const struct import_wish *wish, struct import_
   return import(wish, &ray_format_text, light, error);
 }
 
-const struct import_kind import_tm25 = {"tm25", is_tm25, tm25_slabs};
-const struct import_kind import_zemax = {"zemax", is_zemax, zemax_slabs};
-const struct import_kind import_ray_text = {"ray text", is_ray_text, ray_text_slabs};
+const struct import_kind import_tm25 = {"tm25", is_tm25, tm25_slabs, IMPORT_RAYS};
+const struct import_kind import_zemax = {"zemax", is_zemax, zemax_slabs, IMPORT_RAYS};
+const struct import_kind import_ray_text = {"ray text", is_ray_text, ray_text_slabs, IMPORT_RAYS};

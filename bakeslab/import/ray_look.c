@@ -4,11 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum result ray_look_new(struct ray_look *look, struct error *error) {
+enum result ray_look_new(struct ray_look *look, size_t room, struct error *error) {
   *look = (struct ray_look){.every = 1,
+                            .room = room,
                             .low = {INFINITY, INFINITY, INFINITY},
                             .high = {-INFINITY, -INFINITY, -INFINITY},
-                            .kept = malloc(RAY_LOOK_KEPT * sizeof *look->kept)};
+                            .kept = malloc(room * sizeof *look->kept)};
   return look->kept ? RESULT_OK : result_no_memory(error);
 }
 
@@ -20,7 +21,7 @@ void ray_look_free(struct ray_look *look) {
 /* Keeps a ray; where there is no room, every other one goes. */
 static void keep(struct ray_look *look, const struct ray *ray) {
   if (look->rays % look->every) return;
-  if (look->kept_count == RAY_LOOK_KEPT) {
+  if (look->kept_count == look->room) {
     look->kept_count /= 2;
     for (size_t n = 0; n < look->kept_count; ++n) look->kept[n] = look->kept[2 * n];
     look->every *= 2;

@@ -5,8 +5,6 @@
 
 #include "import/ray_file.h"
 
-enum { RAY_LOOK_KEPT = 1 << 17 };
-
 struct ray_look {
   unsigned long long rays; /* that carry flux */
   double flux[3];
@@ -14,12 +12,12 @@ struct ray_look {
   double direction[3];     /* sum of flux times direction */
   double lines[6], sum[3]; /* of the virtual focus: see ray_look_focus */
   struct ray *kept;        /* every `every`-th of them; owned */
-  size_t kept_count;
+  size_t kept_count, room;
   unsigned long long every;
 };
 
-/* Empty, with memory for what is kept. */
-enum result ray_look_new(struct ray_look *look, struct error *error);
+/* Empty, with memory for `room` rays that are kept, an even number. */
+enum result ray_look_new(struct ray_look *look, size_t room, struct error *error);
 void ray_look_free(struct ray_look *look); /* zeroed ones allowed */
 
 void ray_look_add(struct ray_look *look, const struct ray *rays, size_t count);

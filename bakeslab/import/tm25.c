@@ -150,15 +150,12 @@ static void set_columns(const struct header *header, struct ray_file *file) {
 
 static void tell(const struct header *header, struct ray_file *file) {
   const bool *flags = header->flags;
-  if (header->swapped)
-    warnings_add(file->notes, "%s: note: its bytes are swapped (big-endian); read so", file->path);
+  if (header->swapped) warnings_add(file->notes, "its bytes are swapped (big-endian); read so");
   if (file->lumens && flags[FLAG_WATTS])
-    warnings_add(file->notes, "%s: note: has radiant and luminous flux; the luminous is read",
-                 file->path);
+    warnings_add(file->notes, "has radiant and luminous flux; the luminous is read");
   if (!file->coloured && header->spectrum > 0)
-    warnings_add(file->notes, "%s: note: its spectra are not used: the light is white", file->path);
-  if (flags[FLAG_STOKES])
-    warnings_add(file->notes, "%s: note: polarisation is left out", file->path);
+    warnings_add(file->notes, "its spectra are not used: the light is white");
+  if (flags[FLAG_STOKES]) warnings_add(file->notes, "polarisation is left out");
 }
 
 /* Some writers leave out what the header says of tables, names and text (step 2). */
@@ -168,9 +165,7 @@ static enum result find_start(struct ray_file *file, const struct header *header
   bool blocks = header->tables || header->columns || header->text;
   if (blocks && size >= TEXTS_END && (size - TEXTS_END) % record == 0 &&
       (size - TEXTS_END) / record == header->rays) {
-    warnings_add(file->notes,
-                 "%s: note: the tables, names and text that its header promises are not there",
-                 file->path);
+    warnings_add(file->notes, "the tables, names and text that its header promises are not there");
     *start = TEXTS_END;
     return RESULT_OK;
   }

@@ -67,10 +67,9 @@ static enum result open_zemax(struct ray_file *file, struct error *error) {
   if (result == RESULT_OK) result = ray_records_begin(file, HEADER, error);
   if (result != RESULT_OK) return result;
   if (file->records.swapped)
-    warnings_add(file->notes, "%s: note: its bytes are swapped (big-endian); read so", file->path);
+    warnings_add(file->notes, "its bytes are swapped (big-endian); read so");
   if (file->records.columns == 8)
-    warnings_add(file->notes, "%s: note: its wavelengths are not used: the light is white",
-                 file->path);
+    warnings_add(file->notes, "its wavelengths are not used: the light is white");
   return RESULT_OK;
 }
 

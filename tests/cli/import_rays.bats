@@ -104,7 +104,9 @@ holds() { awk "BEGIN { exit !($1) }" || { echo "not so: $1"; return 1; }; }
   printf '0 0 0 0 0 1 0\n' >lamp.txt
   refuses 1 'lamp.txt: has no rays that carry flux' -- "$BAKESLAB" import lamp.txt -o s.exr
   printf '0 0 0 0 0 1 1\n' >lamp.txt
-  refuses 1 'photometric' -- "$BAKESLAB" import lamp.txt -o s.exr --kelvin 3000
+  refuses 1 'lamp.txt: --kelvin' 'photometric' -- "$BAKESLAB" import lamp.txt -o s.exr --kelvin 3000
+  printf 'IESNA91\nTILT=NONE\n' >lamp.txt
+  refuses 1 'lamp.txt: --center' 'ray files' -- "$BAKESLAB" import lamp.txt -o s.exr --box
   printf 'TM25' >lamp.txt
   refuses 1 'lamp.txt: byte 4: ends within its header' -- "$BAKESLAB" import lamp.txt -o s.exr
   printf '\xf2\x03\0\0' >lamp.txt

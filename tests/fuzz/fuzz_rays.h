@@ -50,7 +50,7 @@ static inline void fuzz_rays(const uint8_t *data, size_t size, const struct ray_
   size_t count = 1;
   int fd = fuzz_file(data, size);
   snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-  fuzz_check(ray_look_new(&look, &error) == RESULT_OK);
+  fuzz_check(ray_look_new(&look, FUZZ_RAYS, &error) == RESULT_OK);
   enum result result = ray_file_open(path, format, 0.001, &notes, &file, &error);
   if (result == RESULT_OK) {
     while (result == RESULT_OK && count > 0) {

@@ -6,7 +6,7 @@
 #include "import/ray_pages.h"
 #include "oracle/random.h"
 
-enum { RAYS = 20000 };
+enum { RAYS = 20000, KEPT = 1000 };
 
 static struct ray rays[RAYS];
 
@@ -22,7 +22,7 @@ static void set_lambertian(struct ray *ray, int axis, double sign, uint64_t *see
 static struct ray_look look_at_all(void) {
   struct ray_look look;
   struct error error = {{0}};
-  assert_ok(ray_look_new(&look, &error), &error);
+  assert_ok(ray_look_new(&look, RAYS, &error), &error);
   for (int n = 0; n < RAYS; n += 1000) ray_look_add(&look, rays + n, 1000);
   return look;
 }
@@ -194,17 +194,17 @@ TEST(test_kept) {
   struct ray_look look;
   struct error error = {{0}};
   struct ray ray = {{0}, {0, 0, 1}, {1, 1, 1}};
-  assert_ok(ray_look_new(&look, &error), &error);
-  for (int n = 0; n < 5 * RAY_LOOK_KEPT + 7; ++n) {
+  assert_ok(ray_look_new(&look, KEPT, &error), &error);
+  for (int n = 0; n < 5 * KEPT + 7; ++n) {
     ray.origin[0] = n;
     ray_look_add(&look, &ray, 1);
   }
-  assert_int_equal(look.rays, 5 * RAY_LOOK_KEPT + 7);
+  assert_int_equal(look.rays, 5 * KEPT + 7);
   assert_int_equal(look.every, 8);
-  assert_int_equal(look.kept_count, (5 * RAY_LOOK_KEPT + 7 + 7) / 8);
+  assert_int_equal(look.kept_count, (5 * KEPT + 7 + 7) / 8);
   for (size_t n = 0; n < look.kept_count; ++n)
     assert_near(look.kept[n].origin[0], 8.0 * (double)n, 0);
-  assert_near(look.high[0], 5.0 * RAY_LOOK_KEPT + 6, 0);
+  assert_near(look.high[0], 5.0 * KEPT + 6, 0);
   ray_look_free(&look);
 }
 
