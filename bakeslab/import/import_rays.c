@@ -95,6 +95,26 @@ static enum result look(struct lamp *lamp, struct error *error) {
 
 /* ---- Step 2 ---- */
 
+/* What is made wider than the rays say, since a slab has a size and a window. */
+static void tell_widened(const struct lamp *lamp) {
+  const struct ray_look *look = &lamp->look;
+  bool point = true;
+  for (int c = 0; c < 3; ++c) point &= look->low[c] == look->high[c];
+  if (point && lamp->wish->aperture_count == 0)
+    warnings_add(lamp->wish->notes, "its rays start at one point: the page there is %g m wide",
+                 2 * lamp->pages.page[0].half[0]);
+  for (int n = 0; n < lamp->pages.count; ++n) {
+    const double *window = lamp->pages.page[n].geometry.st_window;
+    for (int k = 0; k < 4; k += 2)
+      if (window[k + 1] - window[k] < 1.01 * RAY_PAGES_LEAST_WINDOW) {
+        warnings_add(lamp->wish->notes,
+                     "page %d: its rays are parallel: they are spread over slopes of +-%.2g", n + 1,
+                     (window[k + 1] - window[k]) / 2);
+        break;
+      }
+  }
+}
+
 static enum result lay_pages(struct lamp *lamp, struct error *error) {
   const struct import_wish *wish = lamp->wish;
   enum result result = RESULT_OK;
@@ -111,6 +131,7 @@ static enum result lay_pages(struct lamp *lamp, struct error *error) {
   if (result == RESULT_OK && wish->aperture_count == 0)
     result = (wish->box ? ray_pages_box : ray_pages_best)(&lamp->look, &lamp->pages, error);
   if (result == RESULT_OK) result = ray_pages_windows(&lamp->look, &lamp->pages, error);
+  if (result == RESULT_OK) tell_widened(lamp);
   for (int n = 0; n < lamp->pages.count && result == RESULT_OK; ++n) {
     struct slab *page = &lamp->pages.page[n].geometry;
     for (int k = 0; k < 2; ++k) {

@@ -295,7 +295,7 @@ enum result ray_pages_windows(const struct ray_look *look, struct ray_pages *pag
       find_range(values, count, negligible_window, window);
       window[0] = fmin(fmax(window[0], -reach), reach);
       window[1] = fmin(fmax(window[1], -reach), reach);
-      double lacks = thickness * fmax(1, fabs(window[0])) - (window[1] - window[0]);
+      double lacks = RAY_PAGES_LEAST_WINDOW - (window[1] - window[0]);
       if (lacks > 0) { /* parallel rays */
         window[0] -= lacks / 2;
         window[1] += lacks / 2;

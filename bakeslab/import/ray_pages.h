@@ -34,7 +34,9 @@ enum result ray_pages_box(const struct ray_look *look, struct ray_pages *pages,
 enum result ray_pages_best(const struct ray_look *look, struct ray_pages *pages,
                            struct error *error);
 
-/* Windows that hold the light that leaves through each page. */
+/* Windows that hold the light that leaves through each page; those of parallel rays are this wide.
+ */
+#define RAY_PAGES_LEAST_WINDOW 1e-3
 enum result ray_pages_windows(const struct ray_look *look, struct ray_pages *pages,
                               struct error *error);
 
