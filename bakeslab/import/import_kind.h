@@ -43,6 +43,7 @@ struct import_story {
   char error_is[200];    /* how that was found: one sentence */
   double sample_error;   /* RMS error of the samples' luminance, in their unit; NAN: not known */
   double flux_error;     /* relative error of the flux; NAN: not known */
+  double missed;         /* part of the light that no page has; 0: not known */
 };
 
 /* The result: freed by import_free (import.h). */

@@ -48,6 +48,7 @@ enum result import_provenance(const struct import_wish *wish, const char *kind, 
     set_number(noise, "flux", story->flux_error);
     json_object_set_new(object, "noise", noise);
   }
+  if (story->missed > 0) set_number(object, "missed", story->missed);
   enum result result = json_text(object, mark, JSON_COMPACT, &text, error);
   for (int n = 0; n < light->count && result == RESULT_OK; ++n) {
     result = slab_json_set(&light->slabs[n], "samples_are", "\"cell_means\"", error);

@@ -203,6 +203,7 @@ static void tell_story(const struct lamp *lamp, const struct told *told,
   double held_out = sqrt(told->held_out / told->squares);
   story->flux_in = lamp->factor * ray_luminance(lamp->look.flux);
   story->flux_out = told->flux;
+  story->missed = (lamp->missed_flux + lamp->beyond_flux) / story->flux_in;
   story->error = sqrt(told->error / told->squares);
   story->sample_error = sqrt(told->sample_error / told->samples);
   story->flux_error = sqrt(told->flux_error) / told->flux;

@@ -47,6 +47,8 @@ holds() { awk "BEGIN { exit !($1) }" || { echo "not so: $1"; return 1; }; }
   left=${stderr#*rays, with }
   left=${left%% W*}
   holds "($(told flux_in) - 1)^2 < 1e-18 && ($(told flux_out) + $left - 1)^2 < 1e-12"
+  "$BAKESLAB" check s.exr >checked
+  run ! grep -F warning checked # that it misses light is told, and little
   "$BAKESLAB" info s.exr | grep -E 'flux +[0-9.e-]+ .*\(W\)'
   "$BAKESLAB" info s.exr | grep -F 'W/(sr m2)'
 }
