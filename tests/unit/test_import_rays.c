@@ -131,6 +131,18 @@ static double sum_slabs(const struct import_light *light, int axis, double at,
   return sum / (GRID * GRID) * 4 * half * half;
 }
 
+/* Moves a ray's origin back along its line, anywhere within a box. */
+static void move_back(struct made_ray *ray, const double low[3], const double high[3],
+                      uint64_t *seed) {
+  double most = INFINITY;
+  for (int c = 0; c < 3; ++c) {
+    double wall = ray->direction[c] > 0 ? low[c] : high[c];
+    most = fmin(most, (ray->origin[c] - wall) / ray->direction[c]);
+  }
+  double back = random_between(seed, 0, most);
+  for (int c = 0; c < 3; ++c) ray->origin[c] -= back * ray->direction[c];
+}
+
 /* A cuboid that shines to five sides, each its own light, and most to below; its rays are told from
  * elsewhere on their lines. Floor and walls half its width away get what the rays bring. */
 TEST(test_near_field) {
