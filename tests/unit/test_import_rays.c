@@ -155,6 +155,7 @@ TEST(test_near_field) {
     for (int c = 0; c < 3; ++c) rays[n].origin[c] = random_between(&seed, low[c], high[c]);
     rays[n].origin[axis] = side % 2 ? high[axis] : low[axis];
     set_lambertian(&rays[n], axis, side % 2 ? 1 : -1, &seed);
+    if (n % 2) move_back(&rays[n], low, high, &seed);
   }
   struct import_light light =
       import(write_rays(rays, RAYS),
