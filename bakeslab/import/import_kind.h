@@ -29,7 +29,7 @@ struct import_wish {
   struct import_aperture apertures[IMPORT_APERTURES]; /* ray files: pages */
   int aperture_count;
   bool box;               /* ray files: pages are the faces of the box of the rays' origins */
-  double metres;          /* ray files: per unit of the apertures' lengths, and of a text's */
+  double metres;          /* ray files: per unit of the apertures' lengths, and of a text's; 0: 1 */
   const char *name;       /* of the slabs; NULL: from the first file's name */
   struct warnings *notes; /* what the user may not expect; told as it comes */
 };
@@ -53,7 +53,8 @@ struct import_light {
   struct import_story story;
 };
 
-/* Each has options of its own. */
+/* Each has options of its own. Those that are photometric photometry_read (photometry.h) reads,
+ * too. */
 enum import_family { IMPORT_PHOTOMETRIC, IMPORT_RAYS };
 
 struct import_kind {
@@ -61,11 +62,10 @@ struct import_kind {
   /* Whether a file is of this kind, by its first `size` bytes (up to IMPORT_HEAD; a zero
    * follows them) and, where they leave it open, its path. */
   bool (*is)(const char *head, size_t size, const char *path);
-  bool photometric; /* photometry_read (photometry.h) reads it, too */
+  enum import_family family;
   /* Reads wish->files. Messages of failures name file and line or byte. */
   enum result (*slabs)(const struct import_wish *wish, struct import_light *light,
                        struct error *error);
-  enum import_family family;
 };
 
 #endif

@@ -180,5 +180,6 @@ static enum result read_slabs(const struct import_wish *wish, struct import_ligh
   return result_at(result, error, "%s", path);
 }
 
-const struct import_kind import_ies = {"ies", is_ies, true, read_slabs};
-const struct import_kind import_eulumdat = {"eulumdat", is_eulumdat, true, read_slabs};
+const struct import_kind import_ies = {"ies", is_ies, IMPORT_PHOTOMETRIC, read_slabs};
+const struct import_kind import_eulumdat = {"eulumdat", is_eulumdat, IMPORT_PHOTOMETRIC,
+                                            read_slabs};

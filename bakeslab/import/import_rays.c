@@ -30,6 +30,11 @@ struct lamp {
   double missed_flux, beyond_flux;
 };
 
+/* Metres per unit of length, where the wish says it. */
+static double unit_of(const struct import_wish *wish) {
+  return wish->metres > 0 ? wish->metres : 1;
+}
+
 /* The unit of the slabs' flux: --lumens makes lumens of watts. */
 static bool in_lumens(const struct lamp *lamp) {
   return lamp->lumens || lamp->wish->lumens > 0;
@@ -44,7 +49,7 @@ static enum result read_file(struct lamp *lamp, int number, use_rays *use, struc
   struct ray_file file;
   struct ray rays[AT_A_TIME];
   size_t count = 1;
-  enum result result = ray_file_open(path, lamp->format, wish->metres, wish->notes, &file, error);
+  enum result result = ray_file_open(path, lamp->format, unit_of(wish), wish->notes, &file, error);
   if (result != RESULT_OK) return result;
   double before = ray_luminance(lamp->look.flux);
   if (number == 0) lamp->lumens = file.lumens;
@@ -122,9 +127,9 @@ static enum result lay_pages(struct lamp *lamp, struct error *error) {
     const struct import_aperture *aperture = &wish->apertures[n];
     double scaled[3][3];
     for (int c = 0; c < 3; ++c) {
-      scaled[0][c] = aperture->center[c] * wish->metres;
-      scaled[1][c] = aperture->u[c] * wish->metres;
-      scaled[2][c] = aperture->v[c] * wish->metres;
+      scaled[0][c] = aperture->center[c] * unit_of(wish);
+      scaled[1][c] = aperture->u[c] * unit_of(wish);
+      scaled[2][c] = aperture->v[c] * unit_of(wish);
     }
     result = ray_pages_add(&lamp->pages, scaled[0], scaled[1], scaled[2], aperture->normal, error);
   }
@@ -285,6 +290,6 @@ static enum result ray_text_slabs(const struct import_wish *wish, struct import_
   return import(wish, &ray_format_text, light, error);
 }
 
-const struct import_kind import_tm25 = {"tm25", is_tm25, tm25_slabs, IMPORT_RAYS};
-const struct import_kind import_zemax = {"zemax", is_zemax, zemax_slabs, IMPORT_RAYS};
-const struct import_kind import_ray_text = {"ray text", is_ray_text, ray_text_slabs, IMPORT_RAYS};
+const struct import_kind import_tm25 = {"tm25", is_tm25, IMPORT_RAYS, tm25_slabs};
+const struct import_kind import_zemax = {"zemax", is_zemax, IMPORT_RAYS, zemax_slabs};
+const struct import_kind import_ray_text = {"ray text", is_ray_text, IMPORT_RAYS, ray_text_slabs};
