@@ -1,7 +1,7 @@
 /* import_rays.c - from ray files to slabs.
  *
  * 1. All rays are read once, to see where they start and where they go (ray_look.h).
- * 2. Apertures are laid there, with windows that hold their light (ray_pages.h).
+ * 2. Apertures are laid there, with windows that hold their light (ray_lay.h).
  * 3. All rays are read again: each is carried along its line to its page, and counted there
  *    (ray_estimate.h). What reaches none is told.
  * 4. The counts become samples. */
@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "import/ray_estimate.h"
-#include "import/ray_pages.h"
+#include "import/ray_lay.h"
 
 enum { AT_A_TIME = 1024, KEPT = 1 << 17, DEFAULT_UV = 16, DEFAULT_ST = 64 };
 
@@ -111,7 +111,7 @@ static void tell_widened(const struct lamp *lamp) {
   for (int n = 0; n < lamp->pages.count; ++n) {
     const double *window = lamp->pages.page[n].geometry.st_window;
     for (int k = 0; k < 4; k += 2)
-      if (window[k + 1] - window[k] < 1.01 * RAY_PAGES_LEAST_WINDOW) {
+      if (window[k + 1] - window[k] < 1.01 * RAY_LAY_LEAST_WINDOW) {
         warnings_add(lamp->wish->notes,
                      "page %d: its rays are parallel: they are spread over slopes of +-%.2g", n + 1,
                      (window[k + 1] - window[k]) / 2);
@@ -134,8 +134,8 @@ static enum result lay_pages(struct lamp *lamp, struct error *error) {
     result = ray_pages_add(&lamp->pages, scaled[0], scaled[1], scaled[2], aperture->normal, error);
   }
   if (result == RESULT_OK && wish->aperture_count == 0)
-    result = (wish->box ? ray_pages_box : ray_pages_best)(&lamp->look, &lamp->pages, error);
-  if (result == RESULT_OK) result = ray_pages_windows(&lamp->look, &lamp->pages, error);
+    result = (wish->box ? ray_lay_box : ray_lay_best)(&lamp->look, &lamp->pages, error);
+  if (result == RESULT_OK) result = ray_lay_windows(&lamp->look, &lamp->pages, error);
   if (result == RESULT_OK) tell_widened(lamp);
   for (int n = 0; n < lamp->pages.count && result == RESULT_OK; ++n) {
     struct slab *page = &lamp->pages.page[n].geometry;

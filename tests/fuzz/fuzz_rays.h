@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "import/ray_pages.h"
+#include "import/ray_lay.h"
 
 enum { FUZZ_RAYS = 64 }; /* read at a time */
 
@@ -16,8 +16,8 @@ static inline void fuzz_pages(const struct ray_look *look, bool box) {
   struct ray_pages pages;
   struct error error = {""};
   double abst[SLAB_AXES];
-  if ((box ? ray_pages_box : ray_pages_best)(look, &pages, &error) != RESULT_OK ||
-      ray_pages_windows(look, &pages, &error) != RESULT_OK) {
+  if ((box ? ray_lay_box : ray_lay_best)(look, &pages, &error) != RESULT_OK ||
+      ray_lay_windows(look, &pages, &error) != RESULT_OK) {
     fuzz_check(error.text[0]);
     return;
   }

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "helpers.h"
-#include "import/ray_pages.h"
+#include "import/ray_lay.h"
 #include "oracle/random.h"
 
 enum { RAYS = 20000, KEPT = 1000 };
@@ -66,8 +66,8 @@ TEST(test_flat) {
   }
   for (int box = 0; box < 2; ++box) {
     struct ray_look look = look_at_all();
-    assert_ok((box ? ray_pages_box : ray_pages_best)(&look, &pages, &error), &error);
-    assert_ok(ray_pages_windows(&look, &pages, &error), &error);
+    assert_ok((box ? ray_lay_box : ray_lay_best)(&look, &pages, &error), &error);
+    assert_ok(ray_lay_windows(&look, &pages, &error), &error);
     ray_look_free(&look);
     const struct slab *page = &pages.page[0].geometry;
     assert_int_equal(pages.count, 1);
@@ -96,7 +96,7 @@ TEST(test_virtual_focus) {
       rays[n].origin[c] = from[c] + (3 + 0.2 * n / RAYS) * rays[n].direction[c];
   }
   struct ray_look look = look_at_all();
-  assert_ok(ray_pages_best(&look, &pages, &error), &error);
+  assert_ok(ray_lay_best(&look, &pages, &error), &error);
   ray_look_free(&look);
   const struct slab *page = &pages.page[0].geometry;
   assert_int_equal(pages.count, 1);
@@ -125,7 +125,7 @@ TEST(test_box) {
     flux[axis][face % 2] += 1.0 / RAYS;
   }
   struct ray_look look = look_at_all();
-  assert_ok(ray_pages_box(&look, &pages, &error), &error);
+  assert_ok(ray_lay_box(&look, &pages, &error), &error);
   ray_look_free(&look);
   assert_int_equal(pages.count, 5);
   assert_near(flux_to_pages(&pages), 1, 1e-9);
@@ -172,8 +172,8 @@ TEST(test_one_line) {
     rays[n] = (struct ray){{3, 4, 5}, {0.6, 0, -0.8}, {1.0 / RAYS, 1.0 / RAYS, 1.0 / RAYS}};
   for (int box = 0; box < 2; ++box) {
     struct ray_look look = look_at_all();
-    assert_ok((box ? ray_pages_box : ray_pages_best)(&look, &pages, &error), &error);
-    assert_ok(ray_pages_windows(&look, &pages, &error), &error);
+    assert_ok((box ? ray_lay_box : ray_lay_best)(&look, &pages, &error), &error);
+    assert_ok(ray_lay_windows(&look, &pages, &error), &error);
     ray_look_free(&look);
     assert_int_equal(pages.count, 1);
     assert_ok(slab_check(&pages.page[0].geometry, &error), &error);
@@ -185,7 +185,7 @@ TEST(test_one_line) {
                           (const double[]){0, 1, 0}, (const double[]){0, 0, -1}, &error),
             &error);
   struct ray_look look = look_at_all();
-  assert_refused(ray_pages_windows(&look, &pages, &error), &error, "page 1", "no ray", NULL);
+  assert_refused(ray_lay_windows(&look, &pages, &error), &error, "page 1", "no ray", NULL);
   ray_look_free(&look);
 }
 
