@@ -1,21 +1,25 @@
-/* ray_estimate.c - sums of the rays on the page's grid, and samples of them. */
+/* ray_estimate.c - samples on the page's grid, or on the coarsest that meets a tolerance.
+ *
+ * 1. Estimate the samples of the page's own grid, the finest.
+ * 2. Of coarser ones, halved along u and v, along s and t, or both, the blur is the difference
+ *    between their interpolation and the finest samples. What the finest lose themselves is
+ *    extrapolated from one halving and two, as in slab_accuracy.c: with b and c the integrals of
+ *    the squared difference, (b + x) / x = (c + x) / (b + x).
+ * 3. From the fewest samples to the most, estimate those whose blur leaves hope, by the same rays;
+ *    the first whose error is within the tolerance is taken, else that of the least. */
 #include "import/ray_estimate.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "file/slab_json.h"
 #include "import/ray_etendue.h"
+#include "import/ray_samples.h"
+#include "slab/slab_resample.h"
 
 struct ray_estimate {
-  struct slab page; /* its geometry and grid */
-  double tolerance;
-  int channels;                          /* 1, or 3 where coloured */
-  double low[SLAB_AXES], per[SLAB_AXES]; /* a cell's index along an axis is (x - low) * per */
-  double *sums;                          /* of each cell: flux of each channel */
-  unsigned long long rays;
-  double flux[3], squares; /* of all rays; squared luminance */
+  struct ray_bins bins;
+  double tolerance, elsewhere;
 };
 
 enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance,
@@ -23,102 +27,162 @@ enum result ray_estimate_new(const struct slab *page, bool coloured, double tole
   struct ray_estimate *estimate = calloc(1, sizeof *estimate);
   *out = NULL;
   if (!estimate) return result_no_memory(error);
-  enum result result = slab_check(page, error);
-  if (result == RESULT_OK) result = slab_copy_geometry(page, &estimate->page, error);
-  if (result == RESULT_OK) {
-    estimate->tolerance = tolerance;
-    estimate->channels = coloured ? 3 : 1;
-    estimate->sums =
-        calloc(slab_sample_count(page), (size_t)estimate->channels * sizeof *estimate->sums);
-    if (!estimate->sums) result = result_no_memory(error);
-  }
-  for (int axis = 0; axis < SLAB_AXES && result == RESULT_OK; ++axis) {
-    estimate->per[axis] = 1 / slab_spacing(page, axis);
-    estimate->low[axis] = slab_position(page, axis, 0) - slab_spacing(page, axis) / 2;
-  }
+  estimate->tolerance = tolerance;
+  enum result result = ray_bins_new(page, coloured, &estimate->bins, error);
   if (result == RESULT_OK)
     *out = estimate;
   else
-    ray_estimate_free(estimate);
+    free(estimate);
   return result;
 }
 
 void ray_estimate_free(struct ray_estimate *estimate) {
-  if (!estimate) return;
-  slab_free(&estimate->page);
-  free(estimate->sums);
+  if (estimate) ray_bins_free(&estimate->bins);
   free(estimate);
 }
 
 bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES],
                       const double rgb[3]) {
-  int at[SLAB_AXES];
-  for (int axis = 0; axis < SLAB_AXES; ++axis) {
-    int count = estimate->page.samples[axis];
-    double x = (abst[axis] - estimate->low[axis]) * estimate->per[axis];
-    if (!(x >= 0 && x <= count)) return false;
-    at[axis] = x < count ? (int)x : count - 1;
-  }
-  double luminance =
-      estimate->channels == 1 ? rgb[1] : 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-  if (!(luminance > 0 && isfinite(luminance))) return false;
-  const int *samples = estimate->page.samples;
-  size_t cell = ((size_t)at[SLAB_V] * (size_t)samples[SLAB_T] + (size_t)at[SLAB_T]) *
-                    ((size_t)samples[SLAB_U] * (size_t)samples[SLAB_S]) +
-                (size_t)at[SLAB_U] * (size_t)samples[SLAB_S] + (size_t)at[SLAB_S];
-  double *sum = estimate->sums + cell * (size_t)estimate->channels;
-  if (estimate->channels == 1)
-    sum[0] += luminance;
-  else
-    for (int c = 0; c < 3; ++c) sum[c] += rgb[c];
-  for (int c = 0; c < 3; ++c) estimate->flux[c] += estimate->channels == 1 ? luminance : rgb[c];
-  estimate->squares += luminance * luminance;
-  ++estimate->rays;
-  return true;
+  return ray_bins_add(&estimate->bins, abst, rgb);
 }
 
-/* Scales each channel so that the slab's flux is that of the rays. */
-static enum result keep_flux(const struct ray_estimate *estimate, struct slab *slab,
-                             struct error *error) {
-  double flux[3];
-  enum result result = slab_flux_metric(slab, flux, error);
-  for (size_t n = 0; n < 3 * slab_sample_count(slab) && result == RESULT_OK; ++n)
-    if (flux[n % 3] != 0)
-      slab->rgb[n] = (float)((double)slab->rgb[n] * estimate->flux[n % 3] / flux[n % 3]);
+void ray_estimate_elsewhere(struct ray_estimate *estimate, double flux) {
+  estimate->elsewhere += flux;
+}
+
+/* ---- Step 2 ---- */
+
+enum { MOST_HALVINGS = 2, GRIDS = (MOST_HALVINGS + 1) * (MOST_HALVINGS + 1) };
+
+/* Squared error by blur of the grids with that many halvings of u and v and of s and t, relative;
+ * INFINITY where the page's samples cannot be halved. */
+struct blurs {
+  double square[MOST_HALVINGS + 1][MOST_HALVINGS + 1];
+};
+
+static void find_halvings(int uv, int st, int halvings[SLAB_AXES]) {
+  halvings[SLAB_U] = halvings[SLAB_V] = uv;
+  halvings[SLAB_S] = halvings[SLAB_T] = st;
+}
+
+/* The relative squared difference of the interpolated means from the finest samples. */
+static enum result find_blur(const struct slab *finest, const double *etendue,
+                             const int halvings[SLAB_AXES], double *square, struct error *error) {
+  int samples[SLAB_AXES], at[SLAB_AXES];
+  struct slab coarse;
+  double sum = 0, all = 0;
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
+    samples[axis] = finest->samples[axis] >> halvings[axis];
+  enum result result = slab_resample(finest, samples, &coarse, error);
+  if (result != RESULT_OK) return result;
+  for (size_t n = 0; n < slab_sample_count(finest); ++n) {
+    double place[SLAB_AXES], rgb[3], luminance = slab_luminance(finest->rgb + 3 * n);
+    slab_locate(finest, n, at);
+    for (int axis = 0; axis < SLAB_AXES; ++axis)
+      place[axis] = slab_position(finest, axis, at[axis]);
+    slab_lookup(&coarse, place[0], place[1], place[2], place[3], rgb);
+    double difference = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2] - luminance;
+    sum += etendue[n] * difference * difference;
+    all += etendue[n] * luminance * luminance;
+  }
+  slab_free(&coarse);
+  *square = sum / all;
+  return RESULT_OK;
+}
+
+/* What the finest samples lose, by the blur of half of them and of a quarter. Its square grows
+ * twofold with a halving at edges, and 16 times where light is smooth. */
+static double left_over(double half, double quarter) {
+  double ratio = isfinite(quarter) ? (quarter - half) / half : 2;
+  return half > 0 ? half / (fmin(fmax(ratio, 2), 16) - 1) : 0;
+}
+
+static enum result find_blurs(const struct ray_estimate *estimate, const struct slab *finest,
+                              struct blurs *blurs, struct error *error) {
+  double *etendue = ray_etendue(finest), (*square)[MOST_HALVINGS + 1] = blurs->square;
+  enum result result = etendue ? RESULT_OK : result_no_memory(error);
+  for (int n = 0; n < GRIDS && result == RESULT_OK; ++n) {
+    int uv = n / (MOST_HALVINGS + 1), st = n % (MOST_HALVINGS + 1), halvings[SLAB_AXES];
+    find_halvings(uv, st, halvings);
+    square[uv][st] = n ? INFINITY : 0;
+    if (n && ray_bins_halves(&estimate->bins, halvings))
+      result = find_blur(finest, etendue, halvings, &square[uv][st], error);
+  }
+  free(etendue);
+  if (result != RESULT_OK) return result;
+  double left = 0;
+  if (isfinite(square[1][0])) left += left_over(square[1][0], square[2][0]);
+  if (isfinite(square[0][1])) left += left_over(square[0][1], square[0][2]);
+  for (int n = 0; n < GRIDS; ++n) square[n / (MOST_HALVINGS + 1)][n % (MOST_HALVINGS + 1)] += left;
+  return RESULT_OK;
+}
+
+/* ---- Step 3 ---- */
+
+/* The best slab so far, and what it tells. */
+struct best {
+  struct slab slab;
+  struct ray_estimate_told told;
+};
+
+static void tell_blur(double square, struct ray_estimate_told *told) {
+  told->blur = sqrt(square);
+  told->error = hypot(told->noise, told->blur);
+}
+
+static enum result try_grid(const struct ray_estimate *estimate, int uv, int st, double blur,
+                            struct best *one, struct error *error) {
+  int halvings[SLAB_AXES];
+  struct ray_bins bins;
+  find_halvings(uv, st, halvings);
+  enum result result = ray_bins_coarser(&estimate->bins, halvings, &bins, error);
+  if (result != RESULT_OK) return result;
+  result = ray_samples(&bins, estimate->elsewhere, &one->slab, &one->told, error);
+  ray_bins_free(&bins);
+  if (result == RESULT_OK) tell_blur(blur, &one->told);
+  return result;
+}
+
+/* `best` is the finest grid's. */
+static enum result coarsen(const struct ray_estimate *estimate, struct best *best,
+                           struct error *error) {
+  /* halvings of uv and st, from the fewest samples to the most */
+  static const int order[GRIDS - 1][2] = {{2, 2}, {2, 1}, {1, 2}, {2, 0},
+                                          {1, 1}, {0, 2}, {1, 0}, {0, 1}};
+  struct blurs blurs;
+  enum result result = find_blurs(estimate, &best->slab, &blurs, error);
+  if (result != RESULT_OK) return result;
+  tell_blur(blurs.square[0][0], &best->told);
+  bool met = false;
+  for (int n = 0; n < GRIDS - 1 && !met && result == RESULT_OK; ++n) {
+    double blur = blurs.square[order[n][0]][order[n][1]];
+    struct best one = {0};
+    if (!(sqrt(blur) < fmax(best->told.error, estimate->tolerance))) continue;
+    result = try_grid(estimate, order[n][0], order[n][1], blur, &one, error);
+    if (result != RESULT_OK) break;
+    met = one.told.error <= estimate->tolerance;
+    if (met || one.told.error < best->told.error) {
+      slab_free(&best->slab);
+      *best = one;
+    } else {
+      slab_free(&one.slab);
+    }
+  }
   return result;
 }
 
 enum result ray_estimate_finish(struct ray_estimate *estimate, struct slab *slab,
                                 struct ray_estimate_told *told, struct error *error) {
-  enum result result = slab_copy_geometry(&estimate->page, slab, error);
-  if (result == RESULT_OK) result = slab_alloc(slab, error);
+  struct best best = {0};
+  enum result result =
+      ray_samples(&estimate->bins, estimate->elsewhere, &best.slab, &best.told, error);
   if (result != RESULT_OK) return result;
-  double *etendue = ray_etendue(slab);
-  double total = 0;
-  if (!etendue) result = result_no_memory(error);
-  *told = (struct ray_estimate_told){.rays = estimate->rays, .held_out = NAN, .blur = NAN};
-  for (size_t n = 0; n < slab_sample_count(slab) && etendue; ++n) {
-    const double *sum = estimate->sums + n * (size_t)estimate->channels;
-    for (int c = 0; c < 3; ++c)
-      slab->rgb[3 * n + (size_t)c] = (float)(sum[estimate->channels == 1 ? 0 : c] / etendue[n]);
-    double luminance = slab_luminance(slab->rgb + 3 * n);
-    told->square += etendue[n] * luminance * luminance;
-    total += etendue[n];
-  }
-  free(etendue);
-  if (result == RESULT_OK) result = keep_flux(estimate, slab, error);
-  if (result == RESULT_OK) result = slab_json_set(slab, "samples_are", "\"cell_means\"", error);
+  if (estimate->tolerance > 0 && estimate->bins.rays > 0) result = coarsen(estimate, &best, error);
   if (result != RESULT_OK) {
-    slab_free(slab);
+    slab_free(&best.slab);
     return result;
   }
-  memcpy(told->flux, estimate->flux, sizeof told->flux);
-  memcpy(told->samples, slab->samples, sizeof told->samples);
-  if (estimate->rays == 0) return RESULT_OK;
-  /* As many rays as cells have an error of 100 %, if all cells are alike. */
-  double mean = 0.2126 * told->flux[0] + 0.7152 * told->flux[1] + 0.0722 * told->flux[2];
-  told->flux_noise = sqrt(estimate->squares) / mean;
-  told->bins = told->noise = told->error = told->flux_noise * sqrt((double)slab_sample_count(slab));
-  told->sample_noise = told->error * sqrt(told->square / total);
+  *slab = best.slab;
+  *told = best.told;
   return RESULT_OK;
 }

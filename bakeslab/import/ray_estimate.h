@@ -1,12 +1,14 @@
 /* ray_estimate.h - from the rays that leave through one page to its samples, the mean radiance of
  * each cell, with the error that is told.
  *
- * Rays come one at a time and are summed on the page's grid, so that memory does not grow with
- * their number. Fluxes and radiances are in the page's units: W and W/(sr m2), lm and cd/m2;
- * lengths are in lamp units, as in slab.h. */
+ * Rays come one at a time and are summed on the page's grid (ray_bins.h), so that memory does not
+ * grow with their number: some 270 bytes a sample while the samples are found. Fluxes and radiances
+ * are in the page's units: W and W/(sr m2), lm and cd/m2; lengths are in lamp units, as in slab.h.
+ */
 #ifndef RAY_ESTIMATE_H
 #define RAY_ESTIMATE_H
 
+#include "import/ray_told.h"
 #include "slab/slab.h"
 
 struct ray_estimate; /* the rays of one page */
@@ -24,26 +26,14 @@ void ray_estimate_free(struct ray_estimate *estimate);
 bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES],
                       const double rgb[3]);
 
-struct ray_estimate_told {
-  unsigned long long rays; /* that were added */
-  double flux[3];          /* of them; slab_flux_metric of the samples is the same to 1e-6 */
-  int samples[SLAB_AXES];  /* of the slab */
-  double noise; /* RMS error of the samples' luminance, weighted by etendue, over their RMS: by the
-                   number of rays, and by what is averaged to make up for it */
-  double held_out; /* the same for samples of the rays but one in four, as that fourth shows it;
-                      NAN: it shows nothing (there are too few) */
-  double blur;     /* the same for what the samples' finite size loses; NAN where they were given */
-  double error;    /* all of it together */
-  double bins;     /* noise of plain bins, the mean of each cell's own rays, for comparison */
-  double square;   /* integral of the squared luminance over the etendue, to weight pages by */
-  double flux_noise; /* standard error of the flux by the number of rays, relative */
-  double
-      sample_noise; /* RMS error of the samples, absolute, each counting alike (slab_sampling.h) */
-};
+/* Luminous flux of rays of the same source that leave elsewhere: which of them leave here is chance
+ * then, which counts in the error. Without it the flux through the page is taken as exact. */
+void ray_estimate_elsewhere(struct ray_estimate *estimate, double flux);
 
 /* The samples: fills slab->rgb of a new slab, which the caller frees, with the geometry of the page
  * and no JSON but "samples_are". With a tolerance > 0, the fewest samples for which told->error is
- * at most that, or those of the least error. No ray at all gives a dark slab, and errors of 0. */
+ * at most that, or those of the least error: halvings of the page's, down to 4 along an axis. No
+ * ray at all gives a dark slab, and errors of 0. */
 enum result ray_estimate_finish(struct ray_estimate *estimate, struct slab *slab,
                                 struct ray_estimate_told *told, struct error *error);
 

@@ -1,0 +1,34 @@
+/* ray_partition.h - the density of rays over a page's 4D cells, averaged over every way to cut the
+ * grid into boxes in which it is even, each weighted by how well it explains the rays.
+ *
+ * The boxes of an axis are the nodes of a binary tree: all cells, their halves, and so on to single
+ * cells. A box is halved along any axis, or is not, each with its own chance. Where the rays show
+ * no structure large boxes win, and their mean has little noise; at an edge those win that do not
+ * straddle it. Every box has the mean of its own rays, so that their sum is kept exactly. */
+#ifndef RAY_PARTITION_H
+#define RAY_PARTITION_H
+
+#include "slab/slab.h"
+
+/* Cells are in the order of slab->rgb's pixels. */
+struct ray_cells {
+  int samples[SLAB_AXES];
+  const float *count;    /* rays of a cell: flux over the flux of a ray there */
+  const float *exposure; /* their expected number at radiance 1: etendue over the same */
+};
+
+/* Of one pass: sums over cells, of the density and of what it may be about it. */
+struct ray_posterior {
+  double square;        /* exposure times squared density */
+  double variance;      /* exposure times the density's variance */
+  double even_variance; /* variance */
+};
+
+/* Adds the expected density of each cell, count over exposure, to density[]. The trees' cuts are at
+ * multiples of powers of two, less `shift` cells of each axis: where they fall is arbitrary, and
+ * the mean over several shifts has less error than each. */
+enum result ray_partition_add(const struct ray_cells *cells, const int shift[SLAB_AXES],
+                              double *density, struct ray_posterior *posterior,
+                              struct error *error);
+
+#endif

@@ -1,0 +1,28 @@
+/* ray_told.h - what is told of samples that were estimated by rays.
+ *
+ * Errors are of luminance, as the root of the integral of their square over the etendue, and
+ * relative to that of luminance. */
+#ifndef RAY_TOLD_H
+#define RAY_TOLD_H
+
+#include "slab/slab.h"
+
+struct ray_estimate_told {
+  unsigned long long rays; /* that were added */
+  double flux[3];          /* of them; slab_flux_metric of the samples is the same to 1e-6 */
+  int samples[SLAB_AXES];  /* of the slab */
+  double noise;            /* error of the samples as means over their cells: by the number of rays,
+                              and by averaging over cells that are not alike; raised where rays that
+                              were held out show more */
+  double held_out;   /* the same, of one pass without them, as the rays held out show it (the error
+                        of the mean of all passes is less); NAN: it is hidden in their own noise */
+  double blur;       /* error of interpolating means over cells; NAN where the samples were given */
+  double error;      /* noise and blur together */
+  double bins;       /* noise of plain bins, the mean of each cell's own rays, for comparison */
+  double square;     /* integral of the squared luminance over the etendue, to weight pages by */
+  double flux_noise; /* standard error of the flux, relative, if which rays leave here is chance */
+  double sample_noise; /* RMS error of the samples' luminance, each counting alike
+                          (slab_sampling.h), in the unit of radiance */
+};
+
+#endif

@@ -1,0 +1,100 @@
+/* estimate.c - estimate SOURCE RAYS SEEDS [TOLERANCE]: rays of a source of known radiance become
+ * samples, once for each seed. Prints, as the RMS over the seeds, the true error of the samples,
+ * the told one and that of plain bins; then CPU seconds to add a million rays and to estimate; of
+ * the last seed what the rays held out show, the told blur, and the grid that was chosen. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "import/ray_estimate.h"
+#include "oracle/known_rays.h"
+
+struct sums {
+  double error, told, bins, adding, estimating;
+};
+
+static double seconds(void) {
+  return (double)clock() / CLOCKS_PER_SEC;
+}
+
+static struct slab page_of(enum known_kind kind) {
+  const double *half = known_sources[kind].half;
+  return (struct slab){.samples = {16, 16, 64, 64},
+                       .u = {2 * half[0], 0, 0},
+                       .v = {0, 2 * half[1], 0},
+                       .normal = {0, 0, 1},
+                       .st_window = {-half[2], half[2], -half[3], half[3]},
+                       .st_distance = INFINITY,
+                       .metres_per_unit = 1,
+                       .radiance_unit = "W/(sr m2)"};
+}
+
+/* Squared, of the samples against the means over their cells of a source with flux 1. */
+static double true_error(enum known_kind kind, const struct slab *slab) {
+  size_t count = slab_sample_count(slab);
+  double *mean = malloc(2 * count * sizeof *mean), error = 0, square = 0;
+  if (!mean) exit(1);
+  const double *etendue = mean + count;
+  double flux = known_cells(kind, slab->samples, mean, mean + count);
+  for (size_t n = 0; n < count; ++n) {
+    double truth = mean[n] / flux, difference = (double)slab->rgb[3 * n] - truth;
+    error += etendue[n] * difference * difference;
+    square += etendue[n] * truth * truth;
+  }
+  free(mean);
+  return error / square;
+}
+
+static void add_rays(struct ray_estimate *estimate, enum known_kind kind, double rays,
+                     uint64_t *seed, struct sums *sums) {
+  enum { BATCH = 100000 };
+  static double abst[BATCH][SLAB_AXES];
+  const double flux[3] = {1 / rays, 1 / rays, 1 / rays};
+  for (double done = 0; done < rays; done += BATCH) {
+    for (int n = 0; n < BATCH; ++n) known_ray(kind, seed, abst[n]);
+    double start = seconds();
+    for (int n = 0; n < BATCH; ++n)
+      if (!ray_estimate_add(estimate, abst[n], flux)) ray_estimate_elsewhere(estimate, flux[1]);
+    sums->adding += seconds() - start;
+  }
+}
+
+static enum result try_seed(enum known_kind kind, double rays, uint64_t seed, double tolerance,
+                            struct sums *sums, struct ray_estimate_told *told) {
+  struct slab page = page_of(kind), slab;
+  struct ray_estimate *estimate;
+  struct error error;
+  enum result result = ray_estimate_new(&page, false, tolerance, &estimate, &error);
+  if (result != RESULT_OK) return result;
+  add_rays(estimate, kind, rays, &seed, sums);
+  double start = seconds();
+  result = ray_estimate_finish(estimate, &slab, told, &error);
+  sums->estimating += seconds() - start;
+  ray_estimate_free(estimate);
+  if (result != RESULT_OK) return result;
+  sums->error += true_error(kind, &slab);
+  sums->told += told->noise * told->noise;
+  sums->bins += told->bins * told->bins;
+  slab_free(&slab);
+  return RESULT_OK;
+}
+
+int main(int argc, char **argv) {
+  enum known_kind kind = KNOWN_SQUARE;
+  if (argc < 4) return 2;
+  while (kind < KNOWN_KINDS && strcmp(argv[1], known_sources[kind].name)) ++kind;
+  if (kind == KNOWN_KINDS) return 2;
+  double rays = strtod(argv[2], NULL), tolerance = argc > 4 ? strtod(argv[4], NULL) : 0;
+  int seeds = atoi(argv[3]);
+  struct sums sums = {0};
+  struct ray_estimate_told told = {0};
+  for (int seed = 1; seed <= seeds; ++seed)
+    if (try_seed(kind, rays, (uint64_t)seed, tolerance, &sums, &told) != RESULT_OK) return 1;
+  printf("%.5f %.5f %.5f %.3f %.2f %.5f %.5f %dx%d\n", sqrt(sums.error / seeds),
+         sqrt(sums.told / seeds), sqrt(sums.bins / seeds), sums.adding / seeds / rays * 1e6,
+         sums.estimating / seeds, told.held_out, told.blur, told.samples[SLAB_U],
+         told.samples[SLAB_S]);
+  return 0;
+}

@@ -1,0 +1,337 @@
+/* test_ray_estimate.c - samples by rays of known sources: their flux, their true error against the
+ * told one and that of plain bins, edges, colours, unequal rays, and how fine they become. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/ray_estimate.h"
+#include "import/ray_etendue.h"
+#include "import/ray_held_out.h"
+#include "oracle/known_rays.h"
+#include "oracle/random.h"
+#include "testing.h"
+
+enum { NU = 8, NS = 32, RAYS = 20000 };
+
+static struct slab page_of(enum known_kind kind) {
+  const double *half = known_sources[kind].half;
+  return (struct slab){.samples = {NU, NU, NS, NS},
+                       .u = {2 * half[0], 0, 0},
+                       .v = {0, 2 * half[1], 0},
+                       .normal = {0, 0, 1},
+                       .st_window = {-half[2], half[2], -half[3], half[3]},
+                       .st_distance = INFINITY,
+                       .metres_per_unit = 1,
+                       .radiance_unit = "W/(sr m2)"};
+}
+
+/* What a test gives a ray: flux that is 1 on average. */
+typedef void give_flux(const double abst[SLAB_AXES], uint64_t *seed, double rgb[3]);
+
+static void one_each(const double abst[SLAB_AXES], uint64_t *seed, double rgb[3]) {
+  (void)abst, (void)seed;
+  rgb[0] = rgb[1] = rgb[2] = 1;
+}
+
+static void unequal(const double abst[SLAB_AXES], uint64_t *seed, double rgb[3]) {
+  (void)abst;
+  rgb[0] = rgb[1] = rgb[2] = -log(1 - random_number(seed));
+}
+
+static void red_or_green(const double abst[SLAB_AXES], uint64_t *seed, double rgb[3]) {
+  (void)seed;
+  rgb[0] = abst[SLAB_U] < 0;
+  rgb[1] = abst[SLAB_U] >= 0;
+  rgb[2] = 0;
+}
+
+static struct ray_estimate *shoot(enum known_kind kind, int rays, uint64_t seed, bool coloured,
+                                  double tolerance, give_flux *give, double *all) {
+  struct slab page = page_of(kind);
+  struct ray_estimate *estimate;
+  double abst[SLAB_AXES], rgb[3];
+  *all = 0;
+  assert_int_equal(ray_estimate_new(&page, coloured, tolerance, &estimate, NULL), RESULT_OK);
+  for (int n = 0; n < rays; ++n) {
+    known_ray(kind, &seed, abst);
+    give(abst, &seed, rgb);
+    *all += rgb[1];
+    if (!ray_estimate_add(estimate, abst, rgb)) ray_estimate_elsewhere(estimate, rgb[1]);
+  }
+  return estimate;
+}
+
+/* Samples, which the caller frees. */
+static struct slab take(struct ray_estimate *estimate, struct ray_estimate_told *told) {
+  struct slab slab;
+  struct error error;
+  assert_int_equal(ray_estimate_finish(estimate, &slab, told, &error), RESULT_OK);
+  ray_estimate_free(estimate);
+  return slab;
+}
+
+/* The error of luminances against a source whose rays carry the flux `all`, relative. */
+static double error_of(enum known_kind kind, const double *luminance, double all) {
+  enum { CELLS = NU * NU * NS * NS };
+  static double mean[CELLS], etendue[CELLS];
+  const int samples[] = {NU, NU, NS, NS};
+  double factor = all / known_cells(kind, samples, mean, etendue), error = 0, square = 0;
+  for (int n = 0; n < CELLS; ++n) {
+    double difference = luminance[n] - factor * mean[n];
+    error += etendue[n] * difference * difference;
+    square += etendue[n] * factor * factor * mean[n] * mean[n];
+  }
+  return sqrt(error / square);
+}
+
+static double true_error(enum known_kind kind, const struct slab *slab, double all) {
+  double *luminance = calloc(slab_sample_count(slab), sizeof *luminance);
+  for (size_t n = 0; n < slab_sample_count(slab); ++n)
+    luminance[n] = slab_luminance(slab->rgb + 3 * n);
+  double error = error_of(kind, luminance, all);
+  free(luminance);
+  return error;
+}
+
+static void check_flux(const struct slab *slab, const double flux[3]) {
+  double interpolated[3];
+  assert_int_equal(slab_flux_metric(slab, interpolated, NULL), RESULT_OK);
+  for (int c = 0; c < 3; ++c) assert_near(interpolated[c], flux[c], 1e-6 * flux[1]);
+}
+
+/* ---- Sources of known radiance ---- */
+
+/* The told error is within 1.5 of the true one, and that is a third of plain bins' at most; the
+ * slab's flux is that of the rays. */
+static void check_source(void **state) {
+  enum known_kind kind = (enum known_kind)(*(const struct known_source **)state - known_sources);
+  for (int run = 0; run < 2; ++run) {
+    struct ray_estimate_told told;
+    double all;
+    struct slab slab = take(shoot(kind, RAYS, 7, false, 0, run ? unequal : one_each, &all), &told);
+    double error = true_error(kind, &slab, all);
+    assert_true(told.noise <= 1.5 * error && told.noise >= error / 1.5);
+    assert_true(error <= told.bins / 3 && told.error == told.noise);
+    check_flux(&slab, told.flux);
+    assert_near(told.flux[1], all, 1e-6 * all);
+    slab_free(&slab);
+  }
+}
+
+static __attribute__((constructor)) void list_sources(void) {
+  for (int kind = KNOWN_BEAM; kind < KNOWN_KINDS; ++kind)
+    testing_add(known_sources[kind].name, check_source, &known_sources[kind]);
+}
+
+/* A Lambertian square millimetre of 1 W: 1 W / (pi mm2) all over, up to chance, which is told: its
+ * mean square over some seeds is what it says. */
+TEST(test_square_millimetre) {
+  enum { SEEDS = 8 };
+  double square = 0, expected = 0;
+  for (uint64_t seed = 1; seed <= SEEDS; ++seed) {
+    struct ray_estimate_told told;
+    double all;
+    struct slab slab = take(shoot(KNOWN_SQUARE, RAYS, seed, false, 0, one_each, &all), &told);
+    for (size_t n = 0; n < slab_sample_count(&slab); ++n) {
+      double radiance = (double)slab.rgb[3 * n] / all;
+      assert_near(radiance, 318310, 4 * told.noise * 318310);
+    }
+    double error = true_error(KNOWN_SQUARE, &slab, all);
+    square += error * error;
+    expected += told.noise * told.noise;
+    slab_free(&slab);
+  }
+  assert_true(square <= 2.25 * expected && expected <= 2.25 * square);
+}
+
+/* The rays held out show the error of one pass without them. */
+TEST(test_held_out) {
+  struct slab page = page_of(KNOWN_BARS);
+  struct ray_bins bins;
+  struct ray_posterior posterior;
+  struct ray_held_out held_out;
+  uint64_t seed = 3;
+  assert_int_equal(ray_bins_new(&page, false, &bins, NULL), RESULT_OK);
+  for (int n = 0; n < 4 * RAYS; ++n) {
+    double abst[SLAB_AXES];
+    known_ray(KNOWN_BARS, &seed, abst);
+    ray_bins_add(&bins, abst, (const double[]){1, 1, 1});
+  }
+  size_t cells = slab_sample_count(&page);
+  double *etendue = ray_etendue(&page), *density = calloc(cells, sizeof *density), square = 0;
+  float *counts = malloc(2 * cells * sizeof *counts);
+  ray_bins_cells(&bins, etendue, 0, false, counts, counts + cells);
+  struct ray_cells rays = {{NU, NU, NS, NS}, counts, counts + cells};
+  assert_int_equal(ray_partition_add(&rays, (const int[]){0, 0, 0, 0}, density, &posterior, NULL),
+                   RESULT_OK);
+  assert_int_equal(ray_held_out(&bins, etendue, &held_out, NULL), RESULT_OK);
+  for (size_t n = 0; n < cells; ++n) square += etendue[n] * density[n] * density[n];
+  double error = error_of(KNOWN_BARS, density, bins.flux[0]),
+         shown = sqrt(held_out.likely / square);
+  assert_near(shown, error, 0.2 * error);
+  assert_true(held_out.least > 0 && held_out.least < held_out.likely);
+  free(counts);
+  free(density);
+  free(etendue);
+  ray_bins_free(&bins);
+}
+
+/* ---- Edges ---- */
+
+/* Cells without rays beside cells of 20 rays each, whose border is at no power of two, stay dark;
+ * the light ones get even. */
+TEST(test_edge) {
+  enum { CELLS = 13 * 3 * 11 * 5 };
+  static float count[CELLS], exposure[CELLS];
+  static double density[CELLS];
+  struct ray_cells cells = {{13, 3, 11, 5}, count, exposure};
+  struct ray_posterior posterior;
+  struct slab grid = {.samples = {13, 3, 11, 5}};
+  double counted = 0, kept = 0;
+  for (size_t n = 0; n < CELLS; ++n) {
+    int at[SLAB_AXES];
+    slab_locate(&grid, n, at);
+    exposure[n] = 2;
+    count[n] = at[SLAB_U] < 7 && at[SLAB_S] >= 5 ? 20 : 0;
+    counted += (double)count[n];
+  }
+  assert_int_equal(ray_partition_add(&cells, (const int[]){5, 1, 3, 2}, density, &posterior, NULL),
+                   RESULT_OK);
+  for (size_t n = 0; n < CELLS; ++n) {
+    if (count[n] > 0)
+      assert_near(density[n], 10, 0.05);
+    else
+      assert_near(density[n], 0, 0.01);
+    kept += density[n] * 2;
+  }
+  assert_near(kept, counted, 1e-6 * counted);
+}
+
+/* ---- Colours ---- */
+
+TEST(test_colours) {
+  struct ray_estimate_told told;
+  double all;
+  struct slab slab = take(shoot(KNOWN_LOBE, RAYS, 5, true, 0, red_or_green, &all), &told);
+  check_flux(&slab, told.flux);
+  assert_near(told.flux[1], all, 1e-6 * all);
+  assert_near(told.flux[0] + told.flux[1], RAYS, 1e-6 * RAYS);
+  const float *left = slab_at(&slab, 1, 4, NS / 2, NS / 2),
+              *right = slab_at(&slab, 6, 4, NS / 2, NS / 2);
+  assert_near(left[1] / left[0], 0, 0.02);
+  assert_near(right[0] / right[1], 0, 0.02);
+  slab_free(&slab);
+}
+
+/* ---- What is left out ---- */
+
+TEST(test_refused) {
+  struct slab page = page_of(KNOWN_BARS), slab;
+  struct ray_estimate *estimate;
+  struct ray_estimate_told told;
+  const double white[] = {1, 1, 1}, none[] = {0, 0, 0}, bad[] = {1, NAN, 1},
+               inside[] = {0, 0, 0, 0};
+  const double beside[] = {0.11, 0, 0, 0}, steep[] = {0, 0, 0, -1.6}, lost[] = {0, NAN, 0, 0};
+  assert_int_equal(ray_estimate_new(&page, false, 0, &estimate, NULL), RESULT_OK);
+  assert_false(ray_estimate_add(estimate, beside, white));
+  assert_false(ray_estimate_add(estimate, steep, white));
+  assert_false(ray_estimate_add(estimate, lost, white));
+  assert_false(ray_estimate_add(estimate, inside, none));
+  assert_false(ray_estimate_add(estimate, inside, bad));
+  assert_int_equal(ray_estimate_finish(estimate, &slab, &told, NULL), RESULT_OK);
+  assert_true(told.rays == 0 && told.error == 0 && !slab_is_lit(&slab));
+  slab_free(&slab);
+  assert_true(ray_estimate_add(estimate, (const double[]){0.1, -0.1, 1.5, -1.5}, white));
+  slab = take(estimate, &told);
+  check_flux(&slab, white);
+  slab_free(&slab);
+}
+
+/* ---- Resolution ---- */
+
+/* Fewer samples are enough for less, and keep the tolerance; where it cannot be kept, those of
+ * least error are taken. */
+TEST(test_tolerance) {
+  struct ray_estimate_told loose, tight;
+  double all;
+  struct slab few = take(shoot(KNOWN_LOBE, RAYS, 9, false, 0.3, one_each, &all), &loose);
+  struct slab best = take(shoot(KNOWN_LOBE, RAYS, 9, false, 1e-4, one_each, &all), &tight);
+  assert_true(slab_sample_count(&few) < NU * NU * NS * NS);
+  assert_true(loose.error <= 0.3 && tight.error <= loose.error && tight.error > 1e-4);
+  assert_near(loose.error, hypot(loose.noise, loose.blur), 1e-12);
+  assert_true(loose.blur > tight.blur && loose.noise < tight.noise);
+  assert_memory_equal(loose.samples, few.samples, sizeof few.samples);
+  check_flux(&few, loose.flux);
+  check_flux(&best, tight.flux);
+  slab_free(&few);
+  slab_free(&best);
+}
+
+/* The blur that is told is that of the interpolation: here a Gaussian of slopes, at the middle of
+ * cells and beside it. */
+TEST(test_blur) {
+  struct ray_estimate_told told;
+  double all, error = 0, square = 0;
+  struct slab slab = take(shoot(KNOWN_LOBE, 50 * RAYS, 9, false, 0.12, one_each, &all), &told);
+  double *mean = malloc(2 * sizeof *mean * NU * NU * NS * NS);
+  double factor =
+      all / known_cells(KNOWN_LOBE, (const int[]){NU, NU, NS, NS}, mean, mean + NU * NU * NS * NS);
+  uint64_t seed = 1;
+  for (int n = 0; n < 20000; ++n) {
+    double abst[SLAB_AXES], rgb[3];
+    for (int axis = 0; axis < SLAB_AXES; ++axis)
+      abst[axis] = known_sources[KNOWN_LOBE].half[axis] * random_between(&seed, -1, 1);
+    double cosines = pow(1 + abst[2] * abst[2] + abst[3] * abst[3], -2);
+    double truth = factor * known_radiance(KNOWN_LOBE, abst);
+    slab_lookup(&slab, abst[0], abst[1], abst[2], abst[3], rgb);
+    error += cosines * (rgb[1] - truth) * (rgb[1] - truth);
+    square += cosines * truth * truth;
+  }
+  assert_near(sqrt(error / square), told.error, 0.5 * told.error);
+  free(mean);
+  slab_free(&slab);
+}
+
+/* ---- Etendue ---- */
+
+/* The antiderivative of 1/(1 + s^2 + t^2)^2: the form factor of a rectangle (M. F. Modest,
+ * "Radiative Heat Transfer", configuration 11). */
+static double antiderivative(double s, double t) {
+  double x = sqrt(1 + s * s), y = sqrt(1 + t * t);
+  return (s / x * atan(t / x) + t / y * atan(s / y)) / 2;
+}
+
+static double sum_of_etendue(const struct slab *page) {
+  double *etendue = ray_etendue(page), sum = 0;
+  for (size_t n = 0; n < slab_sample_count(page); ++n) sum += etendue[n];
+  free(etendue);
+  return sum;
+}
+
+TEST(test_etendue) {
+  struct slab page = page_of(KNOWN_BARS);
+  const double windows[][4] = {{-1, 2, 0.5, 0.75}, {-300, 500, -40, 1e-3}, {1, 1 + 1e-6, 2, 2.5}};
+  for (size_t n = 0; n < sizeof windows / sizeof *windows; ++n) {
+    const double *w = windows[n];
+    memcpy(page.st_window, w, sizeof page.st_window);
+    double expected = 0.04 * (antiderivative(w[1], w[3]) - antiderivative(w[0], w[3]) -
+                              antiderivative(w[1], w[2]) + antiderivative(w[0], w[2]));
+    assert_near(sum_of_etendue(&page), expected, 1e-8 * expected + 1e-17);
+  }
+}
+
+/* With the st plane near by, against the flux of a slab of radiance 1, whose weights are others. */
+TEST(test_etendue_near) {
+  struct slab page = page_of(KNOWN_BARS);
+  double flux[3];
+  page.st_distance = 0.15;
+  page.metres_per_unit = 0.01;
+  assert_int_equal(slab_alloc(&page, NULL), RESULT_OK);
+  for (size_t n = 0; n < 3 * slab_sample_count(&page); ++n) page.rgb[n] = 1;
+  assert_int_equal(slab_flux_metric(&page, flux, NULL), RESULT_OK);
+  assert_near(sum_of_etendue(&page), flux[0], 1e-8 * flux[0]);
+  free(page.rgb);
+}
+
+int main(void) {
+  return testing_run(NULL, NULL);
+}
