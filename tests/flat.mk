@@ -68,6 +68,12 @@ $(BENCH_RAYS): $(B)/tests/bench/%: $(B)/tests/bench/%.o $(ORACLE)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
+BENCH_ESTIMATE := $(B)/tests/bench/estimate
+
+$(BENCH_ESTIMATE): $(B)/tests/bench/estimate.o $(ORACLE) $(B)/libbake.a $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
 TRADEOFF_LAMPS := $(B)/tests/tradeoff/lamps
 
 $(TRADEOFF_LAMPS): $(B)/tests/tradeoff/lamps.o $(B)/libslab.a
@@ -85,7 +91,7 @@ peers: $(BIN) ## measure beside Mitsuba, Radiance and POV-Ray what a picture of 
 	@mkdir -p build/peers
 	@$(TEST_ENV) BUILD=$(abspath build/peers) tests/peers/run.sh
 
-bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
+bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done

@@ -220,7 +220,7 @@ static void tell_story(const struct lamp *lamp, const struct told *told,
                : ", which are right-handed: here the lamp is its mirror image");
   if (isfinite(held_out))
     snprintf(story->error_is, sizeof story->error_is,
-             "RMS of the samples' error over that of the samples; rays held out show %.3g.",
+             "RMS of the samples' error over that of the samples; rays held out show %.3g of it.",
              held_out);
   else
     snprintf(story->error_is, sizeof story->error_is,
@@ -234,6 +234,7 @@ static enum result finish(struct lamp *lamp, struct import_light *light, struct 
   if (!light->slabs) return result_no_memory(error);
   for (int n = 0; n < lamp->pages.count && result == RESULT_OK; ++n) {
     struct ray_estimate_told page;
+    ray_estimate_whole(lamp->estimates[n], lamp->factor * ray_luminance(lamp->look.flux));
     result = ray_estimate_finish(lamp->estimates[n], &light->slabs[n], &page, error);
     if (result != RESULT_OK) break;
     ++light->count;

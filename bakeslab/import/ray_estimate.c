@@ -19,7 +19,7 @@
 
 struct ray_estimate {
   struct ray_bins bins;
-  double tolerance, elsewhere;
+  double tolerance, whole;
 };
 
 enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance,
@@ -46,8 +46,8 @@ bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES
   return ray_bins_add(&estimate->bins, abst, rgb);
 }
 
-void ray_estimate_elsewhere(struct ray_estimate *estimate, double flux) {
-  estimate->elsewhere += flux;
+void ray_estimate_whole(struct ray_estimate *estimate, double flux) {
+  estimate->whole = flux;
 }
 
 /* ---- Step 2 ---- */
@@ -137,7 +137,7 @@ static enum result try_grid(const struct ray_estimate *estimate, int uv, int st,
   find_halvings(uv, st, halvings);
   enum result result = ray_bins_coarser(&estimate->bins, halvings, &bins, error);
   if (result != RESULT_OK) return result;
-  result = ray_samples(&bins, estimate->elsewhere, &one->slab, &one->told, error);
+  result = ray_samples(&bins, estimate->whole, &one->slab, &one->told, error);
   ray_bins_free(&bins);
   if (result == RESULT_OK) tell_blur(blur, &one->told);
   return result;
@@ -174,8 +174,7 @@ static enum result coarsen(const struct ray_estimate *estimate, struct best *bes
 enum result ray_estimate_finish(struct ray_estimate *estimate, struct slab *slab,
                                 struct ray_estimate_told *told, struct error *error) {
   struct best best = {0};
-  enum result result =
-      ray_samples(&estimate->bins, estimate->elsewhere, &best.slab, &best.told, error);
+  enum result result = ray_samples(&estimate->bins, estimate->whole, &best.slab, &best.told, error);
   if (result != RESULT_OK) return result;
   if (estimate->tolerance > 0 && estimate->bins.rays > 0) result = coarsen(estimate, &best, error);
   if (result != RESULT_OK) {

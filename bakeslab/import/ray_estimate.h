@@ -26,9 +26,9 @@ void ray_estimate_free(struct ray_estimate *estimate);
 bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES],
                       const double rgb[3]);
 
-/* Luminous flux of rays of the same source that leave elsewhere: which of them leave here is chance
- * then, which counts in the error. Without it the flux through the page is taken as exact. */
-void ray_estimate_elsewhere(struct ray_estimate *estimate, double flux);
+/* Luminous flux of all rays of the source, those that leave elsewhere included: which of them leave
+ * here is chance then, and counts in the error. Without it the flux through the page is exact. */
+void ray_estimate_whole(struct ray_estimate *estimate, double flux);
 
 /* The samples: fills slab->rgb of a new slab, which the caller frees, with the geometry of the page
  * and no JSON but "samples_are". With a tolerance > 0, the fewest samples for which told->error is

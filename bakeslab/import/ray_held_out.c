@@ -3,7 +3,7 @@
  * 1. Estimate the luminance of all cells by the rays that were not held out.
  * 2. Those held out give, in each cell, the true flux F with the variance V of their number, and
  * the estimate gives f. (f - F)^2 - V is then an unbiased estimate of its squared error; over the
- *    etendue it is one of that of radiance, and their sum has the variance 2 V^2 + 4 (f - F)^2 V.
+ *    etendue it is one of that of radiance. Their sum has the variance 2 V^2 + 4 V (f - F)^2.
  * 3. The same on coarser grids: the means over larger cells err less, but noise hides less of it.
  *    The grid on which most shows in spite of three standard deviations counts. */
 #include "import/ray_held_out.h"
@@ -30,14 +30,15 @@ struct grid {
 static enum result estimate(const struct ray_bins *bins, const double *etendue, double *density,
                             struct error *error) {
   size_t count = slab_sample_count(&bins->page);
-  static const int no_shift[SLAB_AXES] = {0};
   float *counts = malloc(2 * count * sizeof *counts);
   struct ray_posterior posterior;
   if (!counts) return result_no_memory(error);
   struct ray_cells cells = {.count = counts, .exposure = counts + count};
   for (int axis = 0; axis < SLAB_AXES; ++axis) cells.samples[axis] = bins->page.samples[axis];
   ray_bins_cells(bins, etendue, bins->luminance, false, counts, counts + count);
-  enum result result = ray_partition_add(&cells, no_shift, density, &posterior, error);
+  enum result result = RESULT_OK;
+  for (int pass = 0; pass < RAY_PASSES && result == RESULT_OK; ++pass)
+    result = ray_partition_add(&cells, pass, density, &posterior, error);
   free(counts);
   return result;
 }
@@ -51,7 +52,8 @@ static void fill(const struct ray_bins *bins, const double *etendue, const doubl
   for (int axis = 0; axis < SLAB_AXES; ++axis) grid->samples[axis] = bins->page.samples[axis];
   for (size_t n = 0; n < slab_sample_count(&bins->page); ++n) {
     double per_flux = ray_bins_quantum(bins, n, bins->luminance) / share;
-    double flux = density[n] * etendue[n], held = bins->sums[n * numbers + numbers - 1] / share;
+    double flux = density[n] / RAY_PASSES * etendue[n];
+    double held = bins->sums[n * numbers + numbers - 1] / share;
     grid->cells[n] = (struct cell){flux, held, per_flux * held, per_flux * flux, etendue[n]};
   }
 }

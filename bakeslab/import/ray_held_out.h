@@ -8,10 +8,10 @@
 struct ray_held_out {
   double
       least; /* of the error: it is more, but for a chance of one in a thousand; 0: nothing shows */
-  double likely; /* of the error, where that shows; NAN: nothing shows */
+  double likely; /* of the error, as far as that grid shows it; NAN: nothing shows */
 };
 
-/* Of one pass of ray_partition_add, without a shift. `etendue`: of each cell. */
+/* Of the mean of all passes of ray_partition_add. `etendue`: of each cell. */
 enum result ray_held_out(const struct ray_bins *bins, const double *etendue,
                          struct ray_held_out *held_out, struct error *error);
 

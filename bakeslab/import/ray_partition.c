@@ -59,29 +59,29 @@ struct work {
 
 /* ---- Step 1 ---- */
 
-/* Cuts [low, end) at the multiple of the largest power of two, up to `size`, less `shift`. Returns
+/* Cuts [low, end) at the multiple of the largest power of two, up to `size`, less `before`. Returns
  * its number. */
-static int cut(struct tree *tree, int low, int end, int shift, int size) {
+static int cut(struct tree *tree, int low, int end, int before, int size) {
   struct node node = {.low = low, .left = -1, .right = -1, .size = end - low};
   if (node.size > 1) {
     int middle = end;
     while (middle >= end) {
       size /= 2;
-      middle = ((low + shift) / size + 1) * size - shift;
+      middle = ((low + before) / size + 1) * size - before;
     }
-    node.left = cut(tree, low, middle, shift, size);
-    node.right = cut(tree, middle, end, shift, size);
+    node.left = cut(tree, low, middle, before, size);
+    node.right = cut(tree, middle, end, before, size);
   }
   tree->nodes[tree->count] = node;
   return tree->count++;
 }
 
-static bool grow(struct tree *tree, int cells, int shift) {
+static bool grow(struct tree *tree, int cells, int before) {
   int size = 2;
-  while (size / 2 < cells + shift) size *= 2;
+  while (size / 2 < cells + before) size *= 2;
   tree->cells = cells;
   tree->nodes = malloc((2 * (size_t)cells - 1) * sizeof *tree->nodes);
-  if (tree->nodes) cut(tree, 0, cells, shift, size);
+  if (tree->nodes) cut(tree, 0, cells, before, size);
   return tree->nodes != NULL;
 }
 
@@ -285,13 +285,18 @@ static bool descend(struct work *work, int number, struct share *here) {
 
 /* ---- All of it ---- */
 
-static bool prepare(struct work *work, const int shift[SLAB_AXES]) {
+/* Multiples of an odd number, so that the passes' cuts differ within boxes of every size. */
+static int shift(int samples, int pass) {
+  return pass * ((int)(0.36 * samples) | 1) % samples;
+}
+
+static bool prepare(struct work *work, int pass) {
   size_t boxes = 1, cells = 1;
   double count = 0, exposure = 0;
   bool good = true;
   for (int axis = AXES - 1; axis >= 0 && good; --axis) {
     int samples = work->cells->samples[order[axis]];
-    good = grow(&work->trees[axis], samples, shift[order[axis]]);
+    good = grow(&work->trees[axis], samples, shift(samples, pass));
     work->step[axis] = boxes;
     work->cell_step[axis] = cells;
     cells *= (size_t)samples;
@@ -308,11 +313,10 @@ static bool prepare(struct work *work, const int shift[SLAB_AXES]) {
   return work->box != NULL;
 }
 
-enum result ray_partition_add(const struct ray_cells *cells, const int shift[SLAB_AXES],
-                              double *density, struct ray_posterior *posterior,
-                              struct error *error) {
+enum result ray_partition_add(const struct ray_cells *cells, int pass, double *density,
+                              struct ray_posterior *posterior, struct error *error) {
   struct work work = {.cells = cells, .density = density};
-  bool good = prepare(&work, shift);
+  bool good = prepare(&work, pass);
   if (good && work.scale > 0) {
     weigh_boxes(&work);
     struct share *top = calloc(work.step[0], sizeof *top);

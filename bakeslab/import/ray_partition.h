@@ -10,6 +10,8 @@
 
 #include "slab/slab.h"
 
+enum { RAY_PASSES = 4 }; /* whose mean is taken, each with its cuts elsewhere */
+
 /* Cells are in the order of slab->rgb's pixels. */
 struct ray_cells {
   int samples[SLAB_AXES];
@@ -24,11 +26,9 @@ struct ray_posterior {
   double even_variance; /* variance */
 };
 
-/* Adds the expected density of each cell, count over exposure, to density[]. The trees' cuts are at
- * multiples of powers of two, less `shift` cells of each axis: where they fall is arbitrary, and
- * the mean over several shifts has less error than each. */
-enum result ray_partition_add(const struct ray_cells *cells, const int shift[SLAB_AXES],
-                              double *density, struct ray_posterior *posterior,
-                              struct error *error);
+/* Adds the expected density of each cell, count over exposure, by one pass to density[]. The trees'
+ * cuts are at multiples of powers of two, less some cells that depend on the pass. */
+enum result ray_partition_add(const struct ray_cells *cells, int pass, double *density,
+                              struct ray_posterior *posterior, struct error *error);
 
 #endif

@@ -1,18 +1,15 @@
 /* ray_samples.c - one grid's samples and their error.
  *
- * 1. The densities of each channel are the mean over PASSES partitions with their cuts elsewhere
- *    (ray_partition.h). They differ most where the light is not even in boxes, and then their mean
+ * 1. The densities of each channel are the mean of passes over partitions whose cuts differ
+ *    (ray_partition.h). These differ most where the light is not even in boxes, and then their mean
  *    is better than each.
  * 2. All samples of a channel are multiplied by one factor, so that the flux of the interpolated
  *    slab is that of the rays.
  * 3. The error that is told is what the density of a pass may be about its mean. That leaves out
- *    that light may not be even in any boxes, but is of one pass, of which the mean is better: on
- *    sources of known radiance the one makes up for the other (tests/RESULTS.md). What all samples
- *    share of it is the flux, which is known but for the rays that leave elsewhere.
- * 4. What rays held out show of the error of one pass is lessened by how much the passes differ,
- *    which is exactly what their mean errs less by than they do (A. Krogh and J. Vedelsby, "Neural
- *    network ensembles, cross validation, and active learning", NIPS 7, 1995, equation 5). Where
- *    that is surely more than 3. says, it is told instead. */
+ *    that light may not be even in any boxes, but it is of one pass, and the mean of them is
+ * better: on sources of known radiance the one makes up for the other (tests/RESULTS.md). What all
+ *    samples share of it is the flux, of which only what leaves elsewhere is not known.
+ * 4. Where rays that were held out surely show more (ray_held_out.h), that is told. */
 #include "import/ray_samples.h"
 
 #include <math.h>
@@ -24,26 +21,17 @@
 #include "import/ray_held_out.h"
 #include "slab/slab_logluv.h"
 
-enum { PASSES = 6 };
-
-/* What the passes say of the luminance, on average; relative to `square`, that of their mean. */
-struct spread {
+/* What the passes say of the luminance, on average. */
+struct noise {
   double square;   /* integral over the etendue of the mean's square */
-  double variance; /* expected squared error */
-  double passes;   /* squared difference of a pass from the mean */
+  double variance; /* expected squared error, relative to that */
   double even;     /* mean over the samples of their variance, not relative */
 };
 
 /* ---- Step 1 ---- */
 
-/* Multiples of an odd number, so that the passes' cuts differ within boxes of every size. */
-static void choose_shift(const int samples[SLAB_AXES], int pass, int shift[SLAB_AXES]) {
-  for (int axis = 0; axis < SLAB_AXES; ++axis)
-    shift[axis] = pass * ((int)(0.36 * samples[axis]) | 1) % samples[axis];
-}
-
 static enum result estimate(const struct ray_bins *bins, const double *etendue, int channel,
-                            double *density, struct spread *spread, struct error *error) {
+                            double *density, struct noise *noise, struct error *error) {
   size_t count = slab_sample_count(&bins->page);
   float *counts = malloc(2 * count * sizeof *counts);
   if (!counts) return result_no_memory(error);
@@ -52,24 +40,20 @@ static enum result estimate(const struct ray_bins *bins, const double *etendue, 
   ray_bins_cells(bins, etendue, channel, true, counts, counts + count);
   struct ray_posterior sum = {0};
   enum result result = RESULT_OK;
-  for (int pass = 0; pass < PASSES && result == RESULT_OK; ++pass) {
-    int shift[SLAB_AXES];
+  for (int pass = 0; pass < RAY_PASSES && result == RESULT_OK; ++pass) {
     struct ray_posterior one = {0};
-    choose_shift(cells.samples, pass, shift);
-    result = ray_partition_add(&cells, shift, density, &one, error);
-    sum.square += one.square / PASSES;
-    sum.variance += one.variance / PASSES;
-    sum.even_variance += one.even_variance / PASSES;
+    result = ray_partition_add(&cells, pass, density, &one, error);
+    sum.variance += one.variance / RAY_PASSES;
+    sum.even_variance += one.even_variance / RAY_PASSES;
   }
   double square = 0;
   for (size_t n = 0; n < count; ++n) {
-    density[n] /= PASSES;
+    density[n] /= RAY_PASSES;
     square += (double)cells.exposure[n] * density[n] * density[n];
-    spread->square += etendue[n] * density[n] * density[n];
+    noise->square += etendue[n] * density[n] * density[n];
   }
-  spread->variance = fmax(sum.variance / square, 0);
-  spread->passes = fmax(sum.square / square - 1, 0);
-  spread->even = fmax(sum.even_variance, 0) / (double)count;
+  noise->variance = fmax(sum.variance / square, 0);
+  noise->even = fmax(sum.even_variance, 0) / (double)count;
   free(counts);
   return result;
 }
@@ -100,16 +84,16 @@ static enum result keep_flux(const struct ray_bins *bins, struct slab *slab, str
 }
 
 static enum result fill(const struct ray_bins *bins, const double *etendue, struct slab *slab,
-                        struct spread *spread, struct error *error) {
+                        struct noise *noise, struct error *error) {
   size_t count = slab_sample_count(slab);
   double *density = malloc(count * sizeof *density);
   enum result result = density ? RESULT_OK : result_no_memory(error);
   for (int c = 0; c < bins->channels && result == RESULT_OK; ++c) {
-    struct spread one = {0};
+    struct noise one = {0};
     for (size_t n = 0; n < count; ++n) density[n] = 0;
     if (!(bins->flux[c] > 0)) continue;
     result = estimate(bins, etendue, c, density, &one, error);
-    if (c == bins->luminance) *spread = one;
+    if (c == bins->luminance) *noise = one;
     for (size_t n = 0; n < count; ++n)
       for (int k = 0; k < 3; ++k)
         if (bins->channels == 1 || k == c) slab->rgb[3 * n + (size_t)k] = (float)density[n];
@@ -120,28 +104,26 @@ static enum result fill(const struct ray_bins *bins, const double *etendue, stru
 
 /* ---- Steps 3 and 4 ---- */
 
-static enum result tell(const struct ray_bins *bins, const double *etendue, double elsewhere,
-                        const struct spread *spread, struct ray_estimate_told *told,
+static enum result tell(const struct ray_bins *bins, const double *etendue, double whole,
+                        const struct noise *noise, struct ray_estimate_told *told,
                         struct error *error) {
   struct ray_held_out held_out;
   size_t numbers = (size_t)bins->channels + 1;
   int y = bins->luminance;
   enum result result = ray_held_out(bins, etendue, &held_out, error);
   if (result != RESULT_OK) return result;
-  double whole = bins->square[y] / (bins->flux[y] * bins->flux[y]);
-  double known = bins->flux[y] / (bins->flux[y] + elsewhere);
-  double by_rays = fmax(spread->variance - whole * known, 0);
-  double shown = held_out.least / spread->square - spread->passes;
-  double noise = sqrt(fmax(by_rays, shown));
-  told->square = spread->square;
-  told->noise = told->error = noise;
-  told->held_out = sqrt(held_out.likely / spread->square);
-  told->flux_noise = sqrt(whole);
-  told->sample_noise = spread->variance > 0 ? noise * sqrt(spread->even / spread->variance) : 0;
+  double by_chance = bins->square[y] / (bins->flux[y] * bins->flux[y]);
+  double share = fmin(bins->flux[y] / whole, 1);
+  double by_rays = fmax(noise->variance - share * by_chance, 0);
+  told->square = noise->square;
+  told->noise = told->error = sqrt(fmax(by_rays, held_out.least / noise->square));
+  told->held_out = sqrt(held_out.likely / noise->square);
+  told->flux_noise = sqrt((1 - share) * by_chance);
+  told->sample_noise = noise->variance > 0 ? told->noise * sqrt(noise->even / noise->variance) : 0;
   double bin_variance = 0;
   for (size_t n = 0; n < slab_sample_count(&bins->page); ++n)
     bin_variance += ray_bins_quantum(bins, n, y) * bins->sums[n * numbers + (size_t)y] / etendue[n];
-  told->bins = sqrt(bin_variance / spread->square);
+  told->bins = sqrt(bin_variance / noise->square);
   return RESULT_OK;
 }
 
@@ -151,9 +133,9 @@ static void tell_flux(const struct ray_bins *bins, struct ray_estimate_told *tol
   for (int c = 0; c < 3; ++c) told->flux[c] = bins->channels == 3 ? (double)rgb[c] : bins->flux[0];
 }
 
-enum result ray_samples(const struct ray_bins *bins, double elsewhere, struct slab *slab,
+enum result ray_samples(const struct ray_bins *bins, double whole, struct slab *slab,
                         struct ray_estimate_told *told, struct error *error) {
-  struct spread spread = {0};
+  struct noise noise = {0};
   double *etendue = NULL;
   enum result result = slab_copy_geometry(&bins->page, slab, error);
   if (result == RESULT_OK) result = slab_alloc(slab, error);
@@ -163,8 +145,8 @@ enum result ray_samples(const struct ray_bins *bins, double elsewhere, struct sl
   if (result == RESULT_OK && bins->rays > 0) {
     etendue = ray_etendue(slab);
     if (!etendue) result = result_no_memory(error);
-    if (result == RESULT_OK) result = fill(bins, etendue, slab, &spread, error);
-    if (result == RESULT_OK) result = tell(bins, etendue, elsewhere, &spread, told, error);
+    if (result == RESULT_OK) result = fill(bins, etendue, slab, &noise, error);
+    if (result == RESULT_OK) result = tell(bins, etendue, whole, &noise, told, error);
     tell_flux(bins, told);
   }
   free(etendue);

@@ -5,9 +5,9 @@
 #include "import/ray_bins.h"
 #include "import/ray_told.h"
 
-/* Fills a new slab, which the caller frees, and all of `told` but blur, which is NAN. `elsewhere`:
- * luminous flux of rays that leave elsewhere. */
-enum result ray_samples(const struct ray_bins *bins, double elsewhere, struct slab *slab,
+/* Fills a new slab, which the caller frees, and all of `told` but blur, which is NAN. `whole`:
+ * luminous flux of all rays of the source. */
+enum result ray_samples(const struct ray_bins *bins, double whole, struct slab *slab,
                         struct ray_estimate_told *told, struct error *error);
 
 #endif

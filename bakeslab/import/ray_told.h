@@ -14,13 +14,14 @@ struct ray_estimate_told {
   double noise;            /* error of the samples as means over their cells: by the number of rays,
                               and by averaging over cells that are not alike; raised where rays that
                               were held out show more */
-  double held_out;   /* the same, of one pass without them, as the rays held out show it (the error
-                        of the mean of all passes is less); NAN: it is hidden in their own noise */
+  double held_out;   /* what of that rays held out show, of samples by three rays in four; NAN: it
+                        is hidden in their own noise */
   double blur;       /* error of interpolating means over cells; NAN where the samples were given */
   double error;      /* noise and blur together */
   double bins;       /* noise of plain bins, the mean of each cell's own rays, for comparison */
   double square;     /* integral of the squared luminance over the etendue, to weight pages by */
-  double flux_noise; /* standard error of the flux, relative, if which rays leave here is chance */
+  double flux_noise; /* standard error of the flux, relative: by which rays leave here, and which
+                        elsewhere */
   double sample_noise; /* RMS error of the samples' luminance, each counting alike
                           (slab_sampling.h), in the unit of radiance */
 };

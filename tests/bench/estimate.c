@@ -55,8 +55,7 @@ static void add_rays(struct ray_estimate *estimate, enum known_kind kind, double
   for (double done = 0; done < rays; done += BATCH) {
     for (int n = 0; n < BATCH; ++n) known_ray(kind, seed, abst[n]);
     double start = seconds();
-    for (int n = 0; n < BATCH; ++n)
-      if (!ray_estimate_add(estimate, abst[n], flux)) ray_estimate_elsewhere(estimate, flux[1]);
+    for (int n = 0; n < BATCH; ++n) ray_estimate_add(estimate, abst[n], flux);
     sums->adding += seconds() - start;
   }
 }
@@ -69,6 +68,7 @@ static enum result try_seed(enum known_kind kind, double rays, uint64_t seed, do
   enum result result = ray_estimate_new(&page, false, tolerance, &estimate, &error);
   if (result != RESULT_OK) return result;
   add_rays(estimate, kind, rays, &seed, sums);
+  ray_estimate_whole(estimate, 1);
   double start = seconds();
   result = ray_estimate_finish(estimate, &slab, told, &error);
   sums->estimating += seconds() - start;

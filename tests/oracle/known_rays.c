@@ -85,14 +85,17 @@ static double beside_bars(enum known_kind kind, double b, double t) {
   return in_source(b, t);
 }
 
-/* Means over n by m cells of the rectangle of these half widths. */
+/* Means over n by m cells of the rectangle of these half widths, and, after them, means of the same
+ * times y less its middle. */
 static double *means(enum known_kind kind, part *of, double half_x, int n, double half_y, int m) {
-  double *mean = calloc((size_t)n * (size_t)m, sizeof *mean);
+  double *mean = calloc(2 * (size_t)n * (size_t)m, sizeof *mean), dy = 2 * half_y / m;
   for (int i = 0; i < n * m; ++i)
     for (int p = 0; p < POINTS * POINTS; ++p) {
-      double x = (i / m + (p / POINTS + 0.5) / POINTS) / n;
-      double y = (i % m + (p % POINTS + 0.5) / POINTS) / m;
-      mean[i] += of(kind, half_x * (2 * x - 1), half_y * (2 * y - 1)) / (POINTS * POINTS);
+      double x = half_x * (2 * (i / m + (p / POINTS + 0.5) / POINTS) / n - 1);
+      double from_middle = ((p % POINTS + 0.5) / POINTS - 0.5) * dy;
+      double value = of(kind, x, (i % m + 0.5) * dy - half_y + from_middle) / (POINTS * POINTS);
+      mean[i] += value;
+      mean[n * m + i] += value * from_middle;
     }
   return mean;
 }
@@ -108,6 +111,14 @@ static double solid_angle(const double half[4], const int samples[4], int k, int
       sum += (double)(rule->w[p] * rule->w[q]) / (r * r);
     }
   return sum * ds * dt / 4;
+}
+
+/* The mean of along(s) * across(t), the cosines taken as linear within the cell. */
+static double bars_mean(const double *along, int columns, const double *across, int rows, double s,
+                        double t) {
+  double slope = -4 / (1 + s * s + t * t);
+  return along[0] * across[0] +
+         slope * (s * along[columns] * across[0] + t * along[0] * across[rows]);
 }
 
 double known_cells(enum known_kind kind, const int samples[4], double *mean, double *etendue) {
@@ -127,9 +138,11 @@ double known_cells(enum known_kind kind, const int samples[4], double *mean, dou
               (((size_t)j * (size_t)nt + (size_t)l) * (size_t)nu + (size_t)i) * (size_t)ns +
               (size_t)k;
           double a = half[0] * (2 * (i + 0.5) / nu - 1);
+          double s = half[2] * (2 * (k + 0.5) / ns - 1), t = half[3] * (2 * (l + 0.5) / nt - 1);
           etendue[cell] = area * omega;
-          mean[cell] = bars ? along[i * ns + k] * across[j * nt + l]
-                            : slopes[k * nt + l] * (kind == KNOWN_LOBE ? 1 + a / 0.2 : 1);
+          mean[cell] =
+              bars ? bars_mean(&along[i * ns + k], nu * ns, &across[j * nt + l], nv * nt, s, t)
+                   : slopes[k * nt + l] * (kind == KNOWN_LOBE ? 1 + a / 0.2 : 1);
           flux += mean[cell] * etendue[cell];
         }
       }

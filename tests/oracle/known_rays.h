@@ -29,7 +29,7 @@ void known_ray(enum known_kind kind, uint64_t *seed, double abst[4]);
 
 /* Fills the mean radiance and the etendue of each cell of samples[] = Nu, Nv, Ns, Nt, in the order
  * of a slab's pixels, and returns the flux, that outside the window included. Within a cell the
- * cosines are taken as even for the mean; the etendue is by 6^2 Gauss nodes. */
+ * cosines are taken as linear with bars and as even without; the etendue is by 6^2 Gauss nodes. */
 double known_cells(enum known_kind kind, const int samples[4], double *mean, double *etendue);
 
 #endif

@@ -55,8 +55,9 @@ static struct ray_estimate *shoot(enum known_kind kind, int rays, uint64_t seed,
     known_ray(kind, &seed, abst);
     give(abst, &seed, rgb);
     *all += rgb[1];
-    if (!ray_estimate_add(estimate, abst, rgb)) ray_estimate_elsewhere(estimate, rgb[1]);
+    ray_estimate_add(estimate, abst, rgb);
   }
+  if (kind == KNOWN_SQUARE) ray_estimate_whole(estimate, *all);
   return estimate;
 }
 
@@ -143,7 +144,7 @@ TEST(test_square_millimetre) {
   assert_true(square <= 2.25 * expected && expected <= 2.25 * square);
 }
 
-/* The rays held out show the error of one pass without them. */
+/* The rays held out show the error of samples without them. */
 TEST(test_held_out) {
   struct slab page = page_of(KNOWN_BARS);
   struct ray_bins bins;
@@ -151,7 +152,7 @@ TEST(test_held_out) {
   struct ray_held_out held_out;
   uint64_t seed = 3;
   assert_int_equal(ray_bins_new(&page, false, &bins, NULL), RESULT_OK);
-  for (int n = 0; n < 4 * RAYS; ++n) {
+  for (int n = 0; n < 100 * RAYS; ++n) {
     double abst[SLAB_AXES];
     known_ray(KNOWN_BARS, &seed, abst);
     ray_bins_add(&bins, abst, (const double[]){1, 1, 1});
@@ -161,13 +162,15 @@ TEST(test_held_out) {
   float *counts = malloc(2 * cells * sizeof *counts);
   ray_bins_cells(&bins, etendue, 0, false, counts, counts + cells);
   struct ray_cells rays = {{NU, NU, NS, NS}, counts, counts + cells};
-  assert_int_equal(ray_partition_add(&rays, (const int[]){0, 0, 0, 0}, density, &posterior, NULL),
-                   RESULT_OK);
+  for (int pass = 0; pass < RAY_PASSES; ++pass)
+    assert_int_equal(ray_partition_add(&rays, pass, density, &posterior, NULL), RESULT_OK);
   assert_int_equal(ray_held_out(&bins, etendue, &held_out, NULL), RESULT_OK);
-  for (size_t n = 0; n < cells; ++n) square += etendue[n] * density[n] * density[n];
-  double error = error_of(KNOWN_BARS, density, bins.flux[0]),
-         shown = sqrt(held_out.likely / square);
-  assert_near(shown, error, 0.2 * error);
+  for (size_t n = 0; n < cells; ++n) {
+    density[n] /= RAY_PASSES;
+    square += etendue[n] * density[n] * density[n];
+  }
+  double error = error_of(KNOWN_BARS, density, bins.flux[0]);
+  assert_near(sqrt(held_out.likely / square), error, 0.15 * error);
   assert_true(held_out.least > 0 && held_out.least < held_out.likely);
   free(counts);
   free(density);
@@ -194,8 +197,7 @@ TEST(test_edge) {
     count[n] = at[SLAB_U] < 7 && at[SLAB_S] >= 5 ? 20 : 0;
     counted += (double)count[n];
   }
-  assert_int_equal(ray_partition_add(&cells, (const int[]){5, 1, 3, 2}, density, &posterior, NULL),
-                   RESULT_OK);
+  assert_int_equal(ray_partition_add(&cells, 3, density, &posterior, NULL), RESULT_OK);
   for (size_t n = 0; n < CELLS; ++n) {
     if (count[n] > 0)
       assert_near(density[n], 10, 0.05);
@@ -217,8 +219,8 @@ TEST(test_colours) {
   assert_near(told.flux[0] + told.flux[1], RAYS, 1e-6 * RAYS);
   const float *left = slab_at(&slab, 1, 4, NS / 2, NS / 2),
               *right = slab_at(&slab, 6, 4, NS / 2, NS / 2);
-  assert_near(left[1] / left[0], 0, 0.02);
-  assert_near(right[0] / right[1], 0, 0.02);
+  assert_near(left[1] / left[0], 0, 0.05);
+  assert_near(right[0] / right[1], 0, 0.05);
   slab_free(&slab);
 }
 
