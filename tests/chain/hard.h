@@ -69,8 +69,9 @@ struct hard_sum {
 bool hard_add(const struct hard_case *lit, struct hard_sum *sum);
 
 /* Height of a page's sheet with so many lights, at Scale 1: the tiles, one texel wider than
- * the window on each side, meet along one axis. And the lights that a lamp gets, a page. */
-double hard_height(const struct slab *page, const int lights[2]);
+ * the window on each side, meet along one axis; lower where one would jut out over the edge of the
+ * page, and there are other pages. And the lights that a lamp gets, a page. */
+double hard_height(const struct hard_case *lit, const struct slab *page, const int lights[2]);
 void hard_lights(const struct hard_case *lit, const struct slab *page, int lights[2]);
 double hard_width(const struct slab *page);
 /* The radius of a far field's sphere, at Scale 1, of a lamp so wide. */

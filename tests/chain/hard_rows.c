@@ -141,7 +141,7 @@ static void look_from(uint64_t *seed, double widths, struct hard_case *lit) {
   int lights[2];
   hard_lights(lit, page, lights);
   double width = hard_width(page), nearest = 0;
-  if (lit->kind == HARD_SHEET) nearest = 2 * hard_height(page, lights) / width;
+  if (lit->kind == HARD_SHEET) nearest = 2 * hard_height(lit, page, lights) / width;
   if (lit->kind == HARD_CLUSTER) nearest = 0.4;
   if (lit->kind == HARD_POINT) nearest = 8 * hard_radius(&lit->lamps[0], width) / width;
   face(seed, fmax(widths, nearest), false, lit);
@@ -160,7 +160,7 @@ static double least_scale(const struct hard_case *lit) {
   hard_lights(lit, page, lights);
   switch (lit->kind) {
   case HARD_SHEET:
-    return 0.0011 / hard_height(page, lights);
+    return 0.0011 / hard_height(lit, page, lights);
   case HARD_CLUSTER:
     return 0.002 / hard_width(page);
   default:

@@ -120,7 +120,7 @@ static bool too_near(const struct hard_case *lit) {
   int lights[2];
   hard_lights(lit, page, lights);
   return lit->stated && lit->kind == HARD_SHEET &&
-         hard_height(page, lights) >= lit->away * hard_width(page);
+         hard_height(lit, page, lights) >= lit->away * hard_width(page);
 }
 
 static void compare(const struct hard_case *lit, const struct hard_sum *sum, double pigment,

@@ -22,7 +22,7 @@ double hard_width(const struct slab *page) {
   return fmax(chain_length(page->u), chain_length(page->v));
 }
 
-double hard_height(const struct slab *page, const int lights[2]) {
+double hard_height(const struct hard_case *lit, const struct slab *page, const int lights[2]) {
   const double edges[2] = {chain_length(page->u), chain_length(page->v)};
   double height = INFINITY;
   for (int k = 0; k < 2; ++k) {
@@ -30,6 +30,11 @@ double hard_height(const struct slab *page, const int lights[2]) {
     double texels = page->samples[2 + k] + 2;
     height =
         fmin(height, 1 / (texels * span / page->samples[2 + k] / pitch + 1 / page->st_distance));
+    for (int end = 0; end < 2 && lit->page_count > 1; ++end) { /* no tile juts out over an edge */
+      double slope = (end ? 1 : -1) * page->st_window[2 * k + end] + span / page->samples[2 + k];
+      double steepest = slope - (edges[k] - pitch) / 2 / page->st_distance;
+      if (steepest > 0) height = fmin(height, pitch / 2 / steepest);
+    }
   }
   return height;
 }
@@ -81,10 +86,11 @@ static void into(const struct standing *standing, const double at[3], double loc
 
 /* Whether a way meets the sheet's case, which is from the aperture to the sheet's rim, grown
  * by some of its width on all sides. */
-static bool meets_case(const struct hard_lamp *lamp, const struct slab *page, const int lights[2],
-                       const double from[3], const double to[3], double grow) {
+static bool meets_case(const struct hard_case *lit, int n, const struct slab *page,
+                       const int lights[2], const double from[3], const double to[3], double grow) {
+  const struct hard_lamp *lamp = &lit->lamps[n];
   struct standing standing = stand(lamp, page);
-  double height = hard_height(page, lights) * lamp->scale, p[2][3], enter = 0, leave = 1;
+  double height = hard_height(lit, page, lights) * lamp->scale, p[2][3], enter = 0, leave = 1;
   into(&standing, from, p[0]);
   into(&standing, to, p[1]);
   double more = grow * fmax(standing.edges[0], standing.edges[1]);
@@ -126,8 +132,8 @@ static double passing(const struct hard_case *lit, int lamp, int page, const dou
       hard_lights(lit, other, lights);
       double near = shadow_tolerance / (hard_width(other) * lit->lamps[n].scale);
       double grow = edge + 2 * near;
-      if (!meets_case(&lit->lamps[n], other, lights, from, to, grow)) continue;
-      if (meets_case(&lit->lamps[n], other, lights, from, to, -grow)) return 0;
+      if (!meets_case(lit, n, other, lights, from, to, grow)) continue;
+      if (meets_case(lit, n, other, lights, from, to, -grow)) return 0;
       open = 0.5;
     }
   return open;
@@ -179,7 +185,7 @@ static void add_views(const struct hard_case *lit, int n, int p, const struct sl
   struct standing standing = stand(lamp, slab);
   double area = standing.edges[0] * standing.edges[1] / ((double)points[0] * points[1]);
   double rounding = lit->stated ? 0 : half_step * peak_of(slab);
-  double lowest = 1.01 * hard_height(slab, points) * lamp->scale + 2 * shadow_tolerance;
+  double lowest = 1.01 * hard_height(lit, slab, points) * lamp->scale + 2 * shadow_tolerance;
   for (int k = 0; k < lit->size * lit->size; ++k) {
     double at[3], local[3];
     chain_pixel(&lit->plane, lit->size, k, at);

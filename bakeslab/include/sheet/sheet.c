@@ -3,7 +3,8 @@
  * 1. A page's finest level has a light on each uv sample, or on each of at most `lights` blocks
  *    of them an axis; each further level has half as many (block means, slab_resample), down
  *    to one.
- * 2. A level's sheet stands where the tiles of neighbouring lights just do not overlap.
+ * 2. A level's sheet stands where the tiles of neighbouring lights just do not overlap, or lower
+ *    where they would shade the light of other pages.
  * 3. A level's error is that of its lights, summed, against the integral of the quadrilinear
  *    slab (plane_errors); that in a shadow the same, past an edge half way (plane_shadow.h).
  * 4. All levels' tiles go into one image (sheet_image.c). */
@@ -37,20 +38,24 @@ bool sheet_is_lit(const struct slab *views, int i, int j) {
   return false;
 }
 
-/* Height at which tiles of Ns+2 by Nt+2 texels, one before each light, just
- * do not overlap: along the tighter axis they meet. */
-static double sheet_height(const struct slab *views) {
-  double height = INFINITY;
+/* Height at which tiles of Ns+2 by Nt+2 texels, one before each light, just do not overlap: along
+ * the tighter axis they meet. Where there are other pages, lower, so that no tile juts out over an
+ * edge of the aperture: it would shade what they send past it. */
+static double sheet_height(const struct slab *views, bool others) {
+  double height = INFINITY, kappa = slab_kappa(views);
   for (int k = 0; k < 2; ++k) {
-    double pitch = slab_spacing(views, SLAB_U + k);
+    double pitch = slab_spacing(views, SLAB_U + k), slope = slab_spacing(views, SLAB_S + k);
+    const double *window = views->st_window + 2 * k;
     int texels = views->samples[SLAB_S + k] + 2 * SHEET_RING;
-    double slope = slab_spacing(views, SLAB_S + k);
-    height = fmin(height, pitch / (texels * slope + slab_kappa(views) * pitch));
+    height = fmin(height, pitch / (texels * slope + kappa * pitch));
+    double last = (plane_edge(views, SLAB_U + k) - pitch) / 2;
+    double jut = fmax(window[1], -window[0]) + SHEET_RING * slope - kappa * last;
+    if (others && jut > 0) height = fmin(height, pitch / 2 / jut);
   }
   return height;
 }
 
-static enum result make_level(const struct slab *slab, int page, const int lights[2],
+static enum result make_level(const struct slab *slab, int page, bool others, const int lights[2],
                               struct sheet_level *level, struct error *error) {
   const int samples[SLAB_AXES] = {lights[0], lights[1], slab->samples[SLAB_S],
                                   slab->samples[SLAB_T]};
@@ -60,7 +65,7 @@ static enum result make_level(const struct slab *slab, int page, const int light
   for (int j = 0; j < lights[1]; ++j)
     for (int i = 0; i < lights[0]; ++i) level->lit += sheet_is_lit(views, i, j);
   level->peak = include_peak(views);
-  level->height = sheet_height(views);
+  level->height = sheet_height(views, others);
   /* The colour that the include gives to a light, at Scale 1 and Gain 1. */
   double du = slab_spacing(views, SLAB_U), dv = slab_spacing(views, SLAB_V);
   double fade = 1e-3 * plane_width(views);
@@ -115,8 +120,8 @@ static void show(const struct shown *shown, int steps) {
                   "measuring sheets");
 }
 
-static enum result make_page(const struct slab *slab, int number, int most, double distance,
-                             const struct shown *shown, struct sheet_page *page,
+static enum result make_page(const struct slab *slab, int number, bool others, int most,
+                             double distance, const struct shown *shown, struct sheet_page *page,
                              struct error *error) {
   double errors[SHEET_MOST_LEVELS];
   int lights[2] = {slab->samples[SLAB_U], slab->samples[SLAB_V]};
@@ -124,7 +129,7 @@ static enum result make_page(const struct slab *slab, int number, int most, doub
     if (most > 0 && lights[k] > most) lights[k] = most;
   for (bool last = false; !last;) {
     enum result result =
-        make_level(slab, number, lights, &page->levels[page->level_count++], error);
+        make_level(slab, number, others, lights, &page->levels[page->level_count++], error);
     if (result != RESULT_OK) return result;
     last = lights[0] == 1 && lights[1] == 1;
     for (int k = 0; k < 2; ++k) lights[k] = (lights[k] + 1) / 2;
@@ -158,7 +163,7 @@ enum result sheet_make(const struct slab *slabs, int count, int lights, double d
   }
   for (int p = 0; p < lit_count && result == RESULT_OK; ++p) {
     const struct shown shown = {progress, (double)p / lit_count, 1.0 / lit_count};
-    result = make_page(lit[p], (int)(lit[p] - slabs), lights, distance, &shown,
+    result = make_page(lit[p], (int)(lit[p] - slabs), lit_count > 1, lights, distance, &shown,
                        &sheet->pages[sheet->page_count++], error);
   }
   if (result == RESULT_OK) result = sheet_paint(sheet, error);
