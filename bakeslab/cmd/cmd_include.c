@@ -258,7 +258,7 @@ static enum result run(void *input, struct error *error) {
   }
   if (result == RESULT_OK)
     result = include_source_load(arguments->slab, cli_command_line(), &notes, &source, error);
-  for (int k = 0; k < warnings_kept(&notes); ++k)
+  for (int k = 0; result == RESULT_OK && k < warnings_kept(&notes); ++k)
     cli_note("%s: note: %s", arguments->slab, notes.lines[k]);
   if (result == RESULT_OK) result = make_lights(arguments, &source, name, &choice, error);
   if (result == RESULT_OK)

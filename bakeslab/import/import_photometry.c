@@ -2,6 +2,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+#include <strings.h>
 
 #include "import/eulumdat.h"
 #include "import/ies.h"
@@ -15,9 +17,10 @@ static bool is_ies(const char *head, size_t size, const char *path) {
   return ies_is(head, size);
 }
 
+/* Numbers that no such file has are told by their line where its name says what it should be. */
 static bool is_eulumdat(const char *head, size_t size, const char *path) {
-  (void)path;
-  return eulumdat_is(head, size);
+  size_t length = strlen(path);
+  return eulumdat_is(head, size) || (length > 4 && !strcasecmp(path + length - 4, ".ldt"));
 }
 
 /* The mean intensity at gamma 60 to 85 degrees about a direction along an axis, both ways. */

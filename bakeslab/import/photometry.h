@@ -51,8 +51,9 @@ struct photometry {
 
 void photometry_free(struct photometry *lamp); /* zeroed ones allowed */
 
-/* Reads a file of either kind, found by its content. Folders of TILT files are the file's own.
- * `notes` receives what the user may not expect. Failures: "FILE: line N: ...". */
+/* Reads a file of either kind: EULUMDAT where its content is not IES LM-63. Folders of TILT files
+ * are the file's own. `notes` receives what the user may not expect. Failures: "FILE: line N: ...".
+ */
 enum result photometry_read(const char *path, struct photometry *lamp, struct warnings *notes,
                             struct error *error);
 

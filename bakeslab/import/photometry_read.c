@@ -42,10 +42,8 @@ enum result photometry_read(const char *path, struct photometry *lamp, struct wa
   if (result == RESULT_OK) {
     if (ies_is(text, size))
       result = ies_read(text, size, folder, lamp, notes, error);
-    else if (eulumdat_is(text, size))
-      result = eulumdat_read(text, size, lamp, notes, error);
     else
-      result = result_fail(error, RESULT_BAD, "is no photometric file (IES LM-63, EULUMDAT)");
+      result = eulumdat_read(text, size, lamp, notes, error);
     result = result_at(result, error, "%s", path);
   }
   if (result != RESULT_OK) photometry_free(lamp);
