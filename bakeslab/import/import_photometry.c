@@ -112,6 +112,7 @@ static void tell(const struct import_wish *wish, const struct photometry *lamp,
   story->error = grid->error.rms;
   story->sample_error = NAN;
   story->flux_error = fabs(grid->error.factor - 1);
+  story->missed = story->flux_error; /* beyond the windows, made up for by all cells */
   if (grid->error.most95 > tolerance || grid->error.most > 2.5 * tolerance)
     warnings_add(wish->notes,
                  "the far field is off by %.2g %% of the largest intensity in 95 %% of "

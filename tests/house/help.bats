@@ -56,6 +56,8 @@ stands() {
   echo '0 -1 0  0 -1 0' | tee rays.txt >receivers.txt
   printf '%s 0 0 %s 0.1 1 1\n' -0.5 0.2 0.5 -0.2 0.1 0.3 0 0 >led.txt
   cp led.txt led.tm25ray # what a file is, its content tells
+  cp "$ROOT/lamps/wall_washer.ies" downlight.ies
+  cp downlight.ies trough.ldt
   for program in "$BAKESLAB" "$RENDERSLAB"; do
     for command in $(commands "$program"); do
       examples "$program" "$command" >lines

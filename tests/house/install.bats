@@ -141,6 +141,18 @@ torch.tif: CANNED_BAKE_FLAGS += --st 8x4'
   [[ $output == *"bakeslab: desk_lamp.pov: "*glow.inc* ]]
 }
 
+@test "canned.mk: a photometric file and a ray file are imported" {
+  lamp_make_setup
+  cp "$ROOT/lamps/wall_washer.ies" "$ROOT/lamps/spot.rays" .
+  a_makefile <<<'all: wall_washer.inc spot.tif
+wall_washer.tif: CANNED_IMPORT_FLAGS = --turn 90'
+  lamp_make
+  [ -s wall_washer.inc ]
+  bakeslab info wall_washer.tif | grep -q 'turned by 90 degrees'
+  bakeslab info spot.tif | grep -q 'imported from spot.rays (ray text)'
+  lamp_make | grep -q "Nothing to be done for 'all'"
+}
+
 @test "canned.mk: a broken lamp stops its own files only, and leaves none by halves" {
   lamp_make_setup
   some_lamp broken 'sphere { }'

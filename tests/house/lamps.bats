@@ -1,5 +1,5 @@
 #!/usr/bin/env bats
-# make lamps: a shelf of two quick lamps and a broken one, and its page.
+# make lamps: a shelf of two quick lamps, a photometric file and a broken lamp, and its page.
 load house
 load lamp_make
 
@@ -24,7 +24,7 @@ setup_file() {
 # make lamps with the programs under test, which are there.
 shelve() {
   house_make lamps BIN= BAKE_BIN="$BAKESLAB" RENDER_BIN="$RENDERSLAB" SHELF="$SHELF" \
-    SHELF_LAMPS="$LAMPS/wall.pov $LAMPS/box.pov $LAMPS/broken.pov" "$@"
+    SHELF_LAMPS="$LAMPS/wall.pov $LAMPS/box.pov $LAMPS/broken.pov $ROOT/lamps/wall_washer.ies" "$@"
 }
 
 setup() { cd "$SHELF" || return 1; }
@@ -50,7 +50,7 @@ figure() {
 
 @test "the others are built: figures, pictures, files and the include's line" {
   local file
-  [ "$(grep -c '<article' index.html)" -eq 3 ]
+  [ "$(grep -c '<article' index.html)" -eq 4 ]
   card wall | grep -qF '2 × 2 positions, 4 × 8 directions'
   # Radiance 0.5 through 4 square metres, slopes up to 1: the integral of 1/(1 + s^2 + t^2)^2
   # over them is sqrt(8) atan(sqrt(1/2)). The box is four times as bright and has two such sides.
@@ -59,14 +59,18 @@ figure() {
   card box | grep -qF ': 2 pages'
   card wall | grep -qF 'object { Wall_Canned(1, 1) }'
   card wall | grep -q '<th scope="row">interreflection</th><td>off</td>'
-  for file in wall.tif wall.inc wall.exr box.tif box.inc box.exr; do
+  for file in wall.tif wall.inc wall.exr box.tif box.inc box.exr wall_washer.{tif,inc,exr}; do
     grep -qF "<a href=\"$file\"" index.html
     [ -s "$file" ]
   done
   card wall | grep -qF "wall.inc</a>, $((($(stat -c %s wall.inc) + 999) / 1000)) kB"
+  # What is imported says from where; its flux is the file's.
+  card wall_washer | grep -qF '<p>A wall washer: a long flat opening'
+  card wall_washer | grep -q '<th scope="row">imported from</th><td>wall_washer.ies (ies): each point'
+  card wall_washer | figure 'flux, R, G, B' 1694
   # What the page says to copy is a scene that renders: with a housing where there is one.
   card box | grep -q 'Box_Canned_Housing()'
-  for lamp in wall box; do
+  for lamp in wall box wall_washer; do
     { echo '#version 3.7; camera { location -9*z look_at 0 }'; card $lamp | sed -n '/<code>/,/<\/code>/p' |
       sed 's/<[^>]*>//g; s/&quot;/"/g'; } >scene.pov
     povray +Iscene.pov +W8 +H8 -D -GA +Oscene.png 2>/dev/null
@@ -74,8 +78,8 @@ figure() {
 }
 
 @test "every picture has a text, every link and picture is there, nothing comes from elsewhere" {
-  [ "$(grep -o '<img ' index.html | wc -l)" -eq 6 ]
-  [ "$(grep -oE '<img [^>]*alt="[^"]+"' index.html | wc -l)" -eq 6 ]
+  [ "$(grep -o '<img ' index.html | wc -l)" -eq 8 ]
+  [ "$(grep -oE '<img [^>]*alt="[^"]+"' index.html | wc -l)" -eq 8 ]
   for link in $(grep -oE '(src|href)="[^"]*"' index.html | cut -d'"' -f2); do
     echo "$link"
     case $link in
@@ -120,7 +124,7 @@ END
   run in_browser
   echo "$output"
   [ "$(grep -c CONSOLE console.log)" -eq 0 ]
-  [ "$output" = 'cards 3 pictures 6 width 390 390 light dark; cards 3 pictures 6 width 1280 1280 light dark' ]
+  [ "$output" = 'cards 4 pictures 8 width 390 390 light dark; cards 4 pictures 8 width 1280 1280 light dark' ]
 }
 
 @test "mended: the broken lamp alone is built, and nothing twice" {
