@@ -187,3 +187,31 @@ bad() {
   refuses '[12]' 'out.tif' -- "$BAKESLAB" import out.tif -o out.tif
   cmp good.ies out.tif
 }
+
+@test "info, check, an include and renderslab --stats tell source, assumption and error" {
+  ies lamp.ies
+  "$BAKESLAB" import lamp.ies -o lamp.tif --uv 2 --st 16 -q
+  told='lamp.ies (ies): each point of the opening .* shines alike there.*; error of its samples [0-9.e-]* %: '
+  "$BAKESLAB" info lamp.tif | grep -q "^  imported from $told"
+  "$BAKESLAB" check lamp.tif | grep -q "^lamp.tif: imported from $told"
+  "$BAKESLAB" include lamp.tif -o slab.inc
+  "$BAKESLAB" include lamp.ies -o file.inc
+  grep -q "^// Source:  $told" slab.inc
+  grep -q "^// Source:  $told" file.inc
+  echo '0 -1 0  0 1 0' | "$RENDERSLAB" irradiance --light lamp.tif --stats stats.json >/dev/null
+  jq -e '.imported[0] | .light == "lamp.tif" and .source == "lamp.ies" and .kind == "ies" and (.assumptions | length) > 20 and .error > 0 and .flux_in > 0' stats.json
+}
+
+@test "include of a photometric file: its own table where it is a far field; the cheapest within a tolerance" {
+  ies lamp.ies
+  run -0 --separate-stderr "$BAKESLAB" include lamp.ies -o point.inc --mode point
+  grep -q '^//          The image is the measured table of intensities' point.inc
+  grep -qE '^//          [0-9]+ x [0-9]+, which lie on all of its angles' point.inc
+  # Of the table, as the import has integrated it.
+  "$BAKESLAB" import lamp.ies -o lamp.exr -q
+  flux=$("$BAKESLAB" info --json lamp.exr | jq '.pages[0].provenance.import.flux_in')
+  awk -v flux="$flux" '/^\/\/   flux at Scale 1/ { exit !($8 > 0.999*flux && $8 < 1.001*flux) }' point.inc
+  run -0 --separate-stderr "$BAKESLAB" include lamp.ies -o auto.inc --mode auto --tolerance 0.05 --distance 200
+  [[ $stderr == *'with 5 % allowed, '*point* ]]
+  cut -c1-20 auto.inc | grep -q '^// Chosen:'
+}
