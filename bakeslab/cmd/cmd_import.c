@@ -159,22 +159,15 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
-static const char *first_file; /* of those that are read */
-
-static void tell(const char *line) {
-  cli_note("%s: note: %s", first_file, line);
-}
-
 /* Of the units of length, in the order of --unit's words. */
 static const double metres[] = {1, 0.001, 0.01, 0.0254, 0.3048};
 
 static enum result run(void *input, struct error *error) {
   struct arguments *arguments = input;
-  struct warnings notes = {.tell = tell};
+  struct warnings notes = {0}; /* told in the end, so that a refusal is one line */
   struct import_wish *wish = &arguments->wish;
   struct import_light light = {0};
   wish->files = arguments->files;
-  first_file = wish->files[0];
   wish->file_count = arguments->file_count;
   wish->notes = &notes;
   wish->turn *= 90;
@@ -187,6 +180,8 @@ static enum result run(void *input, struct error *error) {
   if (result == RESULT_OK)
     result =
         slab_file_write(arguments->output, light.slabs, light.count, arguments->precision, error);
+  for (int k = 0; k < warnings_kept(&notes) && result == RESULT_OK; ++k)
+    cli_note("%s: note: %s", wish->files[0], notes.lines[k]);
   import_free(&light);
   return result;
 }

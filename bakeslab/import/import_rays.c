@@ -48,8 +48,9 @@ static enum result read_file(struct lamp *lamp, int number, use_rays *use, struc
   const char *path = wish->files[number];
   struct ray_file file;
   struct ray rays[AT_A_TIME];
+  struct warnings notes = {0};
   size_t count = 1;
-  enum result result = ray_file_open(path, lamp->format, unit_of(wish), wish->notes, &file, error);
+  enum result result = ray_file_open(path, lamp->format, unit_of(wish), &notes, &file, error);
   if (result != RESULT_OK) return result;
   double before = ray_luminance(lamp->look.flux);
   if (number == 0) lamp->lumens = file.lumens;
@@ -64,11 +65,13 @@ static enum result read_file(struct lamp *lamp, int number, use_rays *use, struc
   }
   double flux = ray_luminance(lamp->look.flux) - before;
   if (result == RESULT_OK && flux > 0 && fabs(file.stated / flux - 1) > 0.01)
-    warnings_add(wish->notes,
+    warnings_add(&notes,
                  "its rays carry %.6g %s, its header says %.6g: the rays count (--lumens X "
                  "rescales them)",
                  flux, file.lumens ? "lm" : "W", file.stated);
   ray_file_close(&file);
+  for (int k = 0; k < warnings_kept(&notes); ++k)
+    warnings_add(wish->notes, "%s%s%s", number ? path : "", number ? ": " : "", notes.lines[k]);
   return result;
 }
 
@@ -243,7 +246,7 @@ static enum result finish(struct lamp *lamp, struct import_light *light, struct 
     lamp->estimates[n] = NULL;
   }
   if (result == RESULT_OK) tell_story(lamp, &told, &light->story);
-  return result;
+  return result_at(result, error, "%s", lamp->wish->files[0]);
 }
 
 static enum result import(const struct import_wish *wish, const struct ray_format *format,

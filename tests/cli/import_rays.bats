@@ -109,6 +109,10 @@ holds() { awk "BEGIN { exit !($1) }" || { echo "not so: $1"; return 1; }; }
   refuses 1 'lamp.txt: --kelvin' 'photometric' -- "$BAKESLAB" import lamp.txt -o s.exr --kelvin 3000
   printf 'IESNA91\nTILT=NONE\n' >lamp.txt
   refuses 1 'lamp.txt: --center' 'ray files' -- "$BAKESLAB" import lamp.txt -o s.exr --box
+  # Nor is it told, beside that, what would be so of the lamp.
+  printf '0 0 0 0 0 1 1\n0 0 0 0 0 1 1\n' >lamp.txt
+  refuses 1 'LogLuv' -- "$BAKESLAB" import lamp.txt -o s.tif --uv 1 --st 1 --lumens 1e14
+  refuses 1 'lamp.txt: ' -- "$BAKESLAB" import lamp.txt -o s.tif --uv 1 --st 1 --lumens 1e300
   printf 'TM25' >lamp.txt
   refuses 1 'lamp.txt: byte 4: ends within its header' -- "$BAKESLAB" import lamp.txt -o s.exr
   printf '\xf2\x03\0\0' >lamp.txt
