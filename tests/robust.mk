@@ -9,10 +9,9 @@ TEST_NAMES += $(FUZZ_NAMES:%=fuzz/%)
 
 FUZZ_RENDER := faces gltf mtl obj ply receivers words
 fuzz_libs = $(if $(filter $(FUZZ_RENDER),$(1)),$(RENDER_LIBS)) $(ALL_LDLIBS)
-FUZZ_BAKE := ray_text tm25 zemax
 FUZZ_IMAGE_OBJECTS := $(patsubst %,$(B)/bakeslab/image/%.cc.o,says colours)
 fuzz_object = $(patsubst %.c,$(B)/%.o,$(patsubst %.cc,$(B)/%.cc.o,$(filter tests/fuzz/fuzz_$(1).%,$(FUZZ_SOURCES))))
-fuzz_tested = $(if $(filter image,$(1)),$(FUZZ_IMAGE_OBJECTS)) $(if $(filter $(FUZZ_RENDER),$(1)),$(B)/librender.a) $(if $(filter $(FUZZ_RENDER) $(FUZZ_BAKE),$(1)),$(B)/libbake.a) $(B)/libslab.a
+fuzz_tested = $(if $(filter image,$(1)),$(FUZZ_IMAGE_OBJECTS)) $(if $(filter $(FUZZ_RENDER),$(1)),$(B)/librender.a,$(B)/libbake.a) $(B)/libslab.a
 
 define fuzz_programs
 $(B)/tests/fuzz/corpus_$(1): $(call fuzz_object,$(1)) $(B)/tests/fuzz/fuzz.o $(B)/tests/fuzz/corpus.o $(call fuzz_tested,$(1))

@@ -17,6 +17,7 @@ struct arguments {
   const char *output;
   int given[PAGE_OPTIONS]; /* how often */
   int unit;                /* of metres[] */
+  const char *views;
   enum slab_precision precision;
   struct import_wish wish;
 };
@@ -42,26 +43,44 @@ static const struct argp_option options[] = {
      "maker laid it across the opening",
      3},
     {"center", KEY(given[CENTER]), "X,Y,Z", 0,
-     "Ray files: centre of a page. Give it, --u, --v and --normal once for each page. Default: the "
-     "best rectangle",
+     "Ray files, pictures: centre of a page. Give it, --u, --v and --normal once for each page. "
+     "Default, of rays: "
+     "the best rectangle",
      4},
-    {"u", KEY(given[U]), "X,Y,Z", 0, "Ray files: edge of a page", 4},
-    {"v", KEY(given[V]), "X,Y,Z", 0, "Ray files: its other edge, at a right angle", 4},
-    {"normal", KEY(given[NORMAL]), "X,Y,Z", 0, "Ray files: where the page's light goes", 4},
+    {"u", KEY(given[U]), "X,Y,Z", 0, "Ray files, pictures: edge of a page", 4},
+    {"v", KEY(given[V]), "X,Y,Z", 0, "Ray files, pictures: its other edge, at a right angle", 4},
+    {"normal", KEY(given[NORMAL]), "X,Y,Z", 0, "Ray files, pictures: where the page's light goes",
+     4},
     {"box", KEY(wish.box), NULL, 0,
      "Ray files: the pages are those faces of the box around the rays' origins through which "
      "light leaves",
      4},
     {"unit", KEY(unit), "m|mm|cm|in|ft", 0,
-     "Ray files: unit of a text's lengths, and of pages given here (default: m); the slab is in "
+     "Unit of a ray text's lengths, of poses, and of pages given here (default: m); the slab is in "
      "metres",
      4},
+    {"views", KEY(views), "PATTERN", 0,
+     "Pictures taken from a grid of positions, in place of FILE: %u and %v in the file's name are "
+     "the position, from 0, as in 'view_%02u_%02v.exr'. Pixels are samples: columns run with s, "
+     "rows downwards with t",
+     5},
+    {"window", KEY(wish.window), "S0,S1,T0,T1", 0,
+     "Pictures: window of the directions, slopes as seen from --center (default, with poses: where "
+     "cameras stand)",
+     5},
+    {"distance", KEY(wish.distance), "D", 0, "Pictures: of the st plane (default: infinity)", 5},
+    {"exposure", KEY(wish.exposure), "F", 0, "Pictures: multiply their values by F", 5},
+    {"vignetting", KEY(wish.vignetting), "K1,K2,K3", 0,
+     "Pictures with poses: divide their values by 1 + K1 r^2 + K2 r^4 + K3 r^6, with r = 1 in the "
+     "corners",
+     5},
     {0}};
 
 static const char doc[] =
     "Makes a light slab from light that was measured, or simulated elsewhere. The kind of the "
     "files is found from their content: IES LM-63, EULUMDAT; TM-25, Zemax binary source files, "
-    "rays as text."
+    "rays as text; pictures of a lamp with the places of their cameras (transforms.json). --views "
+    "takes an array of pictures."
     "\v"
     "Photometric files (IES LM-63 of 1986 to 2019, EULUMDAT) give a slab in metres, in cd/m2. "
     "Gamma 0 is -y, C0 is +x, C90 is +z.\n"
@@ -77,12 +96,27 @@ static const char doc[] =
     "so that such a lamp becomes its mirror image: where that shows, mirror the light where you "
     "place it (scale <1, 1, -1>).\n"
     "\n"
+    "Pictures are linear: OpenEXR, Radiance's HDR, PFM, floating-point TIFF. The lamp's opening is "
+    "given by --center, --u, --v and --normal. Pictures with poses are those of a transforms.json "
+    "as Instant-NGP and Nerfstudio have it: pinhole cameras, pictures without distortion. Its "
+    "frame "
+    "is right-handed with z up: its point (x, y, z) is the lamp's (x, z, y). Directions are as "
+    "many "
+    "as the pictures support, unless --st says otherwise; what no picture shows is filled in, and "
+    "told. Views are the pictures of cameras on the aperture, in the middle of each of its cells, "
+    "whose film is the window of directions, as `bakeslab bake --camera perspective` takes them. "
+    "Radiance is in the pictures' unit, \"relative\".\n"
+    "\n"
     "Examples:\n"
     "  bakeslab import downlight.ies -o downlight.tif\n"
     "  bakeslab import trough.ldt -o trough.tif --turn 90 --kelvin 4000\n"
     "  bakeslab import led.tm25ray -o led.tif\n"
     "  bakeslab import led.txt -o led.tif --unit mm --center 0,0,2 --u 3,0,0 \\\n"
-    "    --v 0,3,0 --normal 0,0,1";
+    "    --v 0,3,0 --normal 0,0,1\n"
+    "  bakeslab import transforms.json -o lamp.tif --center 0,0,0 --u 0.2,0,0 \\\n"
+    "    --v 0,0,0.2 --normal 0,-1,0\n"
+    "  bakeslab import --views 'view_%02u_%02v.exr' -o lamp.tif --center 0,0,0 \\\n"
+    "    --u 0.2,0,0 --v 0,0,0.2 --normal 0,-1,0 --window=-1,1,-1,1";
 
 static const struct value values[] = {
     {'o', VALUE_TEXT, ARGUMENT(output), 0, 0},
@@ -96,6 +130,9 @@ static const struct value values[] = {
     {KEY(wish.turn), VALUE_WORD, ARGUMENT(wish.turn), 1, 0},
     {KEY(wish.box), VALUE_FLAG, ARGUMENT(wish.box), 0, 0},
     {KEY(unit), VALUE_WORD, ARGUMENT(unit), 0, 0},
+    {KEY(views), VALUE_TEXT, ARGUMENT(views), 0, 0},
+    {KEY(wish.distance), VALUE_POSITIVE, ARGUMENT(wish.distance), 0, 0},
+    {KEY(wish.exposure), VALUE_POSITIVE, ARGUMENT(wish.exposure), 0, 0},
     {0}};
 
 static void add_file(struct arguments *arguments, const char *file) {
@@ -123,6 +160,12 @@ static void add_vector(struct argp_state *state, struct arguments *arguments, in
 static void check_arguments(struct argp_state *state, struct arguments *arguments) {
   const int *given = arguments->given;
   if (!arguments->output) argp_error(state, "no output given: -o SLAB");
+  if (arguments->views) {
+    if (arguments->file_count > 0) argp_error(state, "--views and a file: give one of them");
+    add_file(arguments, arguments->views);
+    arguments->wish.views = true;
+  }
+  if (arguments->file_count == 0) argp_error(state, "no file given");
   for (int option = 0; option < PAGE_OPTIONS; ++option)
     if (given[option] != given[CENTER])
       argp_error(state, "give each of --center, --u, --v and --normal once for each page");
@@ -132,15 +175,21 @@ static void check_arguments(struct argp_state *state, struct arguments *argument
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   struct arguments *arguments = state->input;
+  double *window = arguments->wish.window;
   switch (key) {
   case ARGP_KEY_ARG:
     add_file(arguments, text);
     return 0;
-  case ARGP_KEY_NO_ARGS:
-    argp_error(state, "no file given");
-    return 0;
   case ARGP_KEY_SUCCESS:
     check_arguments(state, arguments);
+    return 0;
+  case KEY(wish.window):
+    if (!numbers_real(text, 4, window) || !(window[0] < window[1] && window[2] < window[3]))
+      argp_error(state, "--window %s: must be four slopes, as in -1,1,-1,1", text);
+    return 0;
+  case KEY(wish.vignetting):
+    if (!numbers_real(text, 3, arguments->wish.vignetting))
+      argp_error(state, "--vignetting %s: must be three numbers, as in -0.4,0.1,0", text);
     return 0;
   case KEY(given[CENTER]):
     add_vector(state, arguments, CENTER, text);

@@ -19,14 +19,15 @@ static const char LETTERS[] = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLM
 /* Reads what the program writes; where that breaks off, the program's own words say why. */
 static enum result take(FILE *from, struct picture *picture, struct slab_image_says *says,
                         struct error *error) {
-  int transparent = 0, several = 0;
+  int transparent = 0, several = 0, integers = 0;
   result_fail(error, RESULT_IO, "%s broke off", PROGRAM);
-  if (fscanf(from, "%d %d %d %d %lf", &picture->width, &picture->height, &transparent, &several,
-             &says->pixel_aspect) != 5 ||
+  if (fscanf(from, "%d %d %d %d %d %lf", &picture->width, &picture->height, &transparent, &several,
+             &integers, &says->pixel_aspect) != 6 ||
       getc(from) != '\n')
     return RESULT_IO;
   says->transparent = transparent;
   says->several = several;
+  says->integers = integers;
   size_t count = (size_t)picture->width * (size_t)picture->height, pixel = 3 * sizeof(float);
   picture->rgb = calloc(count, pixel);
   if (!picture->rgb)

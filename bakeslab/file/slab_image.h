@@ -19,6 +19,7 @@ enum slab_image_colours {
 struct slab_image_says {
   bool transparent;    /* is alpha below 1 anywhere? */
   bool several;        /* are there other pictures in the file, which are not read? */
+  bool integers;       /* does it hold these, rather than floating-point numbers? */
   double pixel_aspect; /* a pixel's width by its height */
 };
 

@@ -1,11 +1,11 @@
 /* bakeslab-image.cc - reads the image on standard input, which must be a file, by OpenImageIO,
  * and writes it as linear Rec. 709: a line
- *   WIDTH HEIGHT TRANSPARENT SEVERAL ASPECT
+ *   WIDTH HEIGHT TRANSPARENT SEVERAL INTEGERS ASPECT
  * (TRANSPARENT: 1 where an alpha is below 1, else 0; SEVERAL: 1 where the file has other pictures,
- * which are not read, else 0; ASPECT: a pixel's width by its height) and
- * then this machine's floats, rows downwards. file/slab_image.h says what is read how; the
- * arguments are the suffix and the colours that it names. What is wrong is one line on standard
- * error, and the exit status 1.
+ * which are not read, else 0; INTEGERS: 1 where it holds integers, else 0; ASPECT: a pixel's width
+ * by its height) and then this machine's floats, rows downwards. file/slab_image.h says what is
+ * read how; the arguments are the suffix and the colours that it names. What is wrong is one line
+ * on standard error, and the exit status 1.
  *
  * A program of its own, since OpenImageIO is 261 libraries. */
 #include <OpenImageIO/imageio.h>
@@ -192,8 +192,8 @@ static void copy_image(const char *suffix, bool own) {
   double aspect = double(spec.get_float_attribute("PixelAspectRatio", 1));
   if (picture.place.turned()) aspect = 1 / aspect;
   if (says.pixel_aspect > 0) aspect = says.pixel_aspect;
-  std::printf("%d %d %d %d %.9g\n", picture.place.shown_width(), picture.place.shown_height(),
-              transparent, several, aspect);
+  std::printf("%d %d %d %d %d %.9g\n", picture.place.shown_width(), picture.place.shown_height(),
+              transparent, several, !spec.format.is_floating_point(), aspect);
   std::vector<float> rgb(3 * size_t(picture.place.shown_width()));
   for (int row = 0; row < picture.place.shown_height(); ++row) write_row(picture, row, rgb);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))

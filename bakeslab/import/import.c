@@ -7,12 +7,13 @@
 
 #include "base/sdl.h"
 #include "import/import_photometry.h"
+#include "import/import_pictures.h"
 #include "import/import_provenance.h"
 #include "import/import_rays.h"
 
 /* The first that knows a file has it: those that are sure by a magic word come first. */
-static const struct import_kind *const kinds[] = {&import_tm25, &import_zemax, &import_ies,
-                                                  &import_eulumdat, &import_ray_text};
+static const struct import_kind *const kinds[] = {
+    &import_tm25, &import_zemax, &import_ies, &import_eulumdat, &import_posed, &import_ray_text};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 static enum result read_head(const char *path, char *head, size_t *size, struct error *error) {
@@ -71,8 +72,17 @@ static enum result check_wish(const struct import_wish *wish, const struct impor
   const char *what = NULL;
   if (kind->family != IMPORT_PHOTOMETRIC && (wish->kelvin > 0 || wish->turn))
     what = "--kelvin and --turn are for photometric files";
-  if (kind->family != IMPORT_RAYS && (wish->aperture_count > 0 || wish->box))
-    what = "--center, --u, --v, --normal and --box are for ray files";
+  if (kind->family == IMPORT_PHOTOMETRIC && (wish->aperture_count > 0 || wish->box))
+    what = "--center, --u, --v, --normal and --box are for ray files and pictures";
+  if (kind->family == IMPORT_PICTURES && wish->box) what = "--box is for ray files";
+  if (kind->family == IMPORT_PICTURES && (wish->lumens > 0 || wish->tolerance > 0))
+    what = "--lumens and --tolerance are not for pictures";
+  if (kind->family != IMPORT_PICTURES &&
+      (wish->window[0] < wish->window[1] || wish->distance > 0 || wish->exposure > 0))
+    what = "--window, --distance and --exposure are for pictures";
+  if (kind != &import_posed &&
+      (wish->vignetting[0] != 0 || wish->vignetting[1] != 0 || wish->vignetting[2] != 0))
+    what = "--vignetting is for pictures with poses";
   if (!what) return RESULT_OK;
   return result_fail(error, RESULT_BAD, "%s: %s; this one is %s", wish->files[0], what, kind->name);
 }
@@ -92,7 +102,11 @@ enum result import_files(const struct import_wish *wish, const char *command,
                          struct import_light *light, struct error *error) {
   const struct import_kind *kind;
   *light = (struct import_light){0};
-  enum result result = find_common_kind(wish, &kind, error);
+  enum result result = RESULT_OK;
+  if (wish->views)
+    kind = &import_views;
+  else
+    result = find_common_kind(wish, &kind, error);
   if (result == RESULT_OK) result = check_wish(wish, kind, error);
   if (result == RESULT_OK) result = kind->slabs(wish, light, error);
   if (result == RESULT_OK) {

@@ -6,7 +6,9 @@
 #include "import/import_kind.h"
 
 /* The kinds that are known by their content, as words for people. */
-#define IMPORT_KINDS "IES LM-63, EULUMDAT, TM-25, Zemax binary source file, ray text"
+#define IMPORT_KINDS                                                                               \
+  "IES LM-63, EULUMDAT, TM-25, Zemax binary source file, ray text, "                               \
+  "transforms.json of pictures"
 
 /* The kind of a file, by its content; NULL where it is none of them, or cannot be read. */
 const struct import_kind *import_kind_of(const char *path);

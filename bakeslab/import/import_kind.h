@@ -26,10 +26,15 @@ struct import_wish {
   double lumens;    /* photometric files: rescales the flux */
   double kelvin;    /* photometric files: colour, of a black body */
   int turn;         /* photometric files: turns the distribution about the vertical, degrees */
-  struct import_aperture apertures[IMPORT_APERTURES]; /* ray files: pages */
+  struct import_aperture apertures[IMPORT_APERTURES]; /* ray files, pictures: pages */
   int aperture_count;
   bool box;               /* ray files: pages are the faces of the box of the rays' origins */
-  double metres;          /* ray files: per unit of the apertures' lengths, and of a text's; 0: 1 */
+  double metres;          /* per unit of the apertures' lengths, of a text's and of poses; 0: 1 */
+  bool views;             /* pictures: the one file's name is a pattern (views.h) */
+  double window[4];       /* pictures: of st, slopes; all 0: chosen by the poses */
+  double distance;        /* pictures: of the st plane, in the wish's unit; 0: infinity */
+  double exposure;        /* pictures: factor on their values; 0: 1 */
+  double vignetting[3];   /* posed pictures (posed.h) */
   const char *name;       /* of the slabs; NULL: from the first file's name */
   struct warnings *notes; /* what the user may not expect; told as it comes */
 };
@@ -44,6 +49,7 @@ struct import_story {
   double sample_error;   /* RMS error of the samples' luminance, in their unit; NAN: not known */
   double flux_error;     /* relative error of the flux; NAN: not known */
   double missed;         /* part of the light that no page has; 0: not known */
+  bool points;           /* samples are no means over their cells */
 };
 
 /* The result: freed by import_free (import.h). */
@@ -55,7 +61,7 @@ struct import_light {
 
 /* Each has options of its own. Those that are photometric photometry_read (photometry.h) reads,
  * too. */
-enum import_family { IMPORT_PHOTOMETRIC, IMPORT_RAYS };
+enum import_family { IMPORT_PHOTOMETRIC, IMPORT_RAYS, IMPORT_PICTURES };
 
 struct import_kind {
   const char *name; /* as provenance.import says */

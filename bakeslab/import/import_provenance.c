@@ -51,7 +51,8 @@ enum result import_provenance(const struct import_wish *wish, const char *kind, 
   if (story->missed > 0) set_number(object, "missed", story->missed);
   enum result result = json_text(object, mark, JSON_COMPACT, &text, error);
   for (int n = 0; n < light->count && result == RESULT_OK; ++n) {
-    result = slab_json_set(&light->slabs[n], "samples_are", "\"cell_means\"", error);
+    const char *samples = story->points ? "\"points\"" : "\"cell_means\"";
+    result = slab_json_set(&light->slabs[n], "samples_are", samples, error);
     if (result == RESULT_OK) result = slab_json_set(&light->slabs[n], "provenance", text, error);
   }
   free(text);

@@ -58,6 +58,10 @@ stands() {
   cp led.txt led.tm25ray # what a file is, its content tells
   cp "$ROOT/lamps/wall_washer.ies" downlight.ies
   cp downlight.ies trough.ldt
+  oiiotool --create 4x4 3 --fill:color=1,1,1 4x4 -d float -o view_00_00.exr
+  oiiotool --create 4x4 3 --fill:color=2,1,1 4x4 -d float -o view_01_00.exr
+  printf '{"fl_x": 9, "frames": [{"file_path": "view_00_00", "transform_matrix": [[1,0,0,0],[0,-1,0,0],[0,0,-1,-1]]},
+    {"file_path": "view_01_00", "transform_matrix": [[1,0,0,0.1],[0,-1,0,0.1],[0,0,-1,-1]]}]}' >transforms.json
   for program in "$BAKESLAB" "$RENDERSLAB"; do
     for command in $(commands "$program"); do
       examples "$program" "$command" >lines

@@ -1,0 +1,14 @@
+/* light_picture.h - a picture whose values are radiance, up to a factor. */
+#ifndef LIGHT_PICTURE_H
+#define LIGHT_PICTURE_H
+
+#include "base/picture.h"
+#include "base/result.h"
+
+/* Reads a picture as slab_image_read does, times a factor; picture_free frees it. Refused, naming
+ * the file: integers, which no camera stores in proportion to light, transparent pixels, several
+ * pictures in a file, pixels that are not square. */
+enum result light_picture_read(const char *path, double factor, struct picture *picture,
+                               struct error *error);
+
+#endif
