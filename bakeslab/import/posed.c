@@ -5,7 +5,7 @@
  * 2. Samples, where they were not asked for: 16 positions a side, and as many directions as there
  *    are cameras within the window: finer ones would be filled in, not measured.
  * 3. Pictures are read one after the other, and their pixels become rays (posed_rays.h).
- * 4. Each page's rays are rebinned (rebin.h). */
+ * 4. Each page's rays are rebinned, at the depth where the lamp shines (focus.h). */
 #include "import/posed.h"
 
 #include <errno.h>
@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/files.h"
+#include "import/focus.h"
 #include "import/light_picture.h"
 #include "import/posed_rays.h"
 
@@ -199,7 +200,9 @@ static double mean_square(const struct slab *slab) {
 
 static enum result add_page(struct work *work, int n, struct slab *slab, struct told *told,
                             struct error *error) {
-  struct rebin_report report;
+  const struct import_wish *wish = work->wish;
+  bool finer = wish->st[0] == 0;
+  struct focus_report report;
   double rgb[3];
   if (work->rays.page[n].count == 0)
     return result_fail(error, RESULT_BAD,
@@ -207,21 +210,27 @@ static enum result add_page(struct work *work, int n, struct slab *slab, struct 
                        "--window",
                        work->path, n + 1);
   enum result result = slab_copy_geometry(&work->pages.page[n].geometry, slab, error);
-  if (result == RESULT_OK) result = slab_alloc(slab, error);
   if (result == RESULT_OK)
-    result = rebin(work->rays.page[n].ray, work->rays.page[n].count, slab, &report, error);
+    result =
+        focus_rebin(work->rays.page[n].ray, work->rays.page[n].count, finer, slab, &report, error);
   if (result == RESULT_OK) result = slab_flux_metric(slab, rgb, error);
   if (result != RESULT_OK) return result;
   double flux = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
   double samples = (double)slab_sample_count(slab), square = flux * flux;
+  if (report.depth > 0)
+    warnings_add(
+        wish->notes,
+        "page %d: between pictures, light is interpolated on a plane %.3g behind it, where "
+        "those that were held out are told best",
+        n + 1, report.depth);
   told->samples += samples;
   told->holes += samples * report.holes;
   told->flux += flux;
   told->flux_holes += flux * report.flux_holes;
   told->square += square;
-  told->wrong += square * report.error * report.error;
+  told->wrong += square * report.rebin.error * report.rebin.error;
   told->bright += samples * mean_square(slab);
-  told->error += square * report.flux_error * report.flux_error;
+  told->error += square * report.rebin.flux_error * report.rebin.flux_error;
   return RESULT_OK;
 }
 

@@ -142,19 +142,9 @@ static void choose_rounds(struct work *work, struct rebin_report *report) {
   work->leave_out = false;
 }
 
-/* Of the cosine to the fourth power of a sample's direction. */
-static double fourth_power(const struct slab *slab, const int at[SLAB_AXES]) {
-  double kappa = slab_kappa(slab);
-  double s = slab_position(slab, SLAB_S, at[2]) - kappa * slab_position(slab, SLAB_U, at[0]);
-  double t = slab_position(slab, SLAB_T, at[3]) - kappa * slab_position(slab, SLAB_V, at[1]);
-  double r = 1 + s * s + t * t;
-  return 1 / (r * r);
-}
-
-/* Copies the values into the slab's raster, and counts what was filled. */
-static void deliver(struct work *work, struct slab *slab, struct rebin_report *report) {
+/* Copies the values into the slab's raster, and says which samples rays touch. */
+static void deliver(struct work *work, struct slab *slab, bool *known) {
   const int *size = slab->samples;
-  double holes = 0, dark = 0, all = 0;
   int at[SLAB_AXES];
   size_t n = 0;
   splat(work); /* for its weights */
@@ -164,16 +154,11 @@ static void deliver(struct work *work, struct slab *slab, struct rebin_report *r
         for (at[3] = 0; at[3] < size[3]; ++at[3], ++n) {
           float *rgb = slab_at(slab, at[0], at[1], at[2], at[3]);
           memcpy(rgb, work->value + 3 * n, 3 * sizeof *rgb);
-          double flux = slab_luminance(rgb) * fourth_power(slab, at);
-          bool hole = work->levels.node[0][REBIN_NODE * n + 3] == 0;
-          all += flux;
-          if (hole) ++holes, dark += flux;
+          if (known) known[(rgb - slab->rgb) / 3] = work->levels.node[0][REBIN_NODE * n + 3] > 0;
         }
-  report->holes = holes / (double)work->nodes;
-  report->flux_holes = all > 0 ? dark / all : 0;
 }
 
-enum result rebin(const struct rebin_ray *rays, size_t count, struct slab *slab,
+enum result rebin(const struct rebin_ray *rays, size_t count, struct slab *slab, bool *known,
                   struct rebin_report *report, struct error *error) {
   struct work work = {.rays = rays, .count = count};
   *report = (struct rebin_report){.error = NAN, .mean_error = NAN};
@@ -190,9 +175,11 @@ enum result rebin(const struct rebin_ray *rays, size_t count, struct slab *slab,
   if (result == RESULT_OK) {
     hold_out(&work);
     choose_rounds(&work, report);
+  }
+  if (result == RESULT_OK && slab->rgb) {
     restart(&work);
     for (int round = 0; round < report->rounds; ++round) do_round(&work);
-    deliver(&work, slab, report);
+    deliver(&work, slab, known);
   }
   rebin_levels_free(&work.levels);
   free(work.value);

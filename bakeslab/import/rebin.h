@@ -29,13 +29,13 @@ struct rebin_report {
   double error;      /* relative RMS over their rays, by weight; NAN: too few sources */
   double mean_error; /* the same of the means of sources; NAN: too few sources */
   double flux_error; /* relative, of the flux through the slab, by the same; NAN: not known */
-  double holes;      /* share of the samples that no ray touches */
-  double flux_holes; /* their share of the flux */
 };
 
-/* Fills the slab's samples, whose geometry and `samples` are given and which are allocated. `rays`
- * are in any order; the same order gives the same bits. Without any ray all samples are 0. */
-enum result rebin(const struct rebin_ray *rays, size_t count, struct slab *slab,
+/* Fills the slab's samples, whose geometry and `samples` are given and which are allocated; where
+ * they are not, only the report is made. known[] (NULL allowed) receives for each pixel of the
+ * raster whether a ray touches that sample. `rays` are in any order; the same order gives the same
+ * bits. Without any ray all samples are 0. */
+enum result rebin(const struct rebin_ray *rays, size_t count, struct slab *slab, bool *known,
                   struct rebin_report *report, struct error *error);
 
 #endif
