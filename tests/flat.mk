@@ -74,6 +74,12 @@ $(BENCH_ESTIMATE): $(B)/tests/bench/estimate.o $(ORACLE) $(B)/libbake.a $(B)/lib
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
+BENCH_SLAB_RAYS := $(B)/tests/bench/slab_rays
+
+$(BENCH_SLAB_RAYS): $(B)/tests/bench/slab_rays.o $(ORACLE) $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
 TRADEOFF_LAMPS := $(B)/tests/tradeoff/lamps
 
 $(TRADEOFF_LAMPS): $(B)/tests/tradeoff/lamps.o $(B)/libslab.a
@@ -91,7 +97,7 @@ peers: $(BIN) ## measure beside Mitsuba, Radiance and POV-Ray what a picture of 
 	@mkdir -p build/peers
 	@$(TEST_ENV) BUILD=$(abspath build/peers) tests/peers/run.sh
 
-bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
+bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done

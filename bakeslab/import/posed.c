@@ -149,8 +149,8 @@ static enum result check_size(const struct pose *pose, const struct picture *pic
   if ((width == 0 || width == picture->width) && (height == 0 || height == picture->height))
     return RESULT_OK;
   return result_fail(error, RESULT_BAD, "%s: is %d x %d pixels, not %g x %g as %s", path,
-                     picture->width, picture->height, width ? width : picture->width,
-                     height ? height : picture->height,
+                     picture->width, picture->height, width > 0 ? width : picture->width,
+                     height > 0 ? height : picture->height,
                      pose->width > 0 || pose->height > 0 ? "its pose says" : "the first picture");
 }
 
@@ -239,10 +239,11 @@ static void tell(const struct work *work, const struct told *told, struct import
   struct warnings *notes = work->wish->notes;
   double filled = 100 * told->holes / told->samples;
   double filled_flux = told->flux > 0 ? 100 * told->flux_holes / told->flux : 0;
-  warnings_add(notes,
-               "no picture shows %.3g %% of the samples, with %.3g %% of the flux; they "
-               "are filled in from their neighbours",
-               filled, filled_flux);
+  if (told->holes > 0)
+    warnings_add(notes,
+                 "no picture shows %.3g %% of the samples, with %.3g %% of the flux; they "
+                 "are filled in from their neighbours",
+                 filled, filled_flux);
   if (rays->missed > 0.001 * rays->seen)
     warnings_add(notes, "%.3g %% of the pictures' light comes from beside the pages",
                  100 * rays->missed / rays->seen);

@@ -129,9 +129,9 @@ static enum result add_pixel(struct posed_rays *rays, const struct sight *sight,
                        column, row, fall);
   rays->seen += light;
   int page = ray_pages_find(rays->pages, &ray, abst);
-  const struct slab *slab = page < 0 ? NULL : &rays->pages->page[page].geometry;
-  double height = slab ? find_height(slab, ray.origin) : 0;
-  if (!(height > 0)) {
+  const struct slab *slab = &rays->pages->page[page < 0 ? 0 : page].geometry;
+  double height = find_height(slab, ray.origin);
+  if (page < 0 || !(height > 0)) {
     rays->missed += light;
     return RESULT_OK;
   }

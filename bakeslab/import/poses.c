@@ -121,7 +121,8 @@ static enum result find_matrix(const json_t *frame, double matrix[4][4], struct 
       good = json_is_number(value) && isfinite(matrix[n][k]);
     }
   }
-  if (good && !memcmp(matrix[3], last, sizeof last)) return RESULT_OK;
+  for (int k = 0; k < 4; ++k) good = good && matrix[3][k] == last[k];
+  if (good) return RESULT_OK;
   if (!rows) return result_fail(error, RESULT_BAD, "has no transform_matrix");
   return result_fail(error, RESULT_BAD,
                      "transform_matrix must be 4 rows of 4 numbers, the last 0 0 0 1");

@@ -31,16 +31,14 @@ enum result views_check(const char *pattern, struct error *error) {
     const char *end = read_conversion(at, &axis, &digits);
     if (*at == '%' && (!end || at < slash))
       return result_fail(error, RESULT_BAD,
-                         "the pattern %s must have %%u and %%v, as in view_%%02u_%%02v.exr, in the "
-                         "file's name, and no other %%",
-                         pattern);
+                         "the pattern must have %%u and %%v, as in view_%%02u_%%02v.exr, in the "
+                         "file's name, and no other %%");
     if (end) ++count[axis];
     at = end ? end : at + 1;
   }
   if (count[0] == 1 && count[1] == 1) return RESULT_OK;
   return result_fail(error, RESULT_BAD,
-                     "the pattern %s must have one %%u and one %%v, as in view_%%02u_%%02v.exr",
-                     pattern);
+                     "the pattern must have one %%u and one %%v, as in view_%%02u_%%02v.exr");
 }
 
 char *views_name(const char *pattern, int i, int j) {
@@ -62,26 +60,20 @@ char *views_name(const char *pattern, int i, int j) {
   return NULL;
 }
 
-/* Whether a name fits the pattern (without folder), and which view it is. */
+/* Whether a name fits the pattern (without folder), and which view it is. Where two numbers stand
+ * side by side, all ways to part them are tried. */
 static bool fits(const char *pattern, const char *name, int at[2]) {
-  while (*pattern) {
-    int axis, digits;
-    const char *end = read_conversion(pattern, &axis, &digits);
-    if (end) {
-      char *after;
-      if (!isdigit((unsigned char)*name)) return false;
-      long number = strtol(name, &after, 10);
-      long width = after - name;
-      if (number >= VIEWS_MOST || width < digits || (width > digits && width > 1 && *name == '0'))
-        return false;
-      at[axis] = (int)number;
-      name = after;
-      pattern = end;
-    } else if (*pattern++ != *name++) {
-      return false;
-    }
+  int axis, digits, number = 0;
+  const char *end = read_conversion(pattern, &axis, &digits);
+  if (!end) return *pattern == *name && (!*pattern || fits(pattern + 1, name + 1, at));
+  for (int length = 1; isdigit((unsigned char)name[length - 1]); ++length) {
+    number = 10 * number + (name[length - 1] - '0');
+    if (number >= VIEWS_MOST) return false;
+    at[axis] = number;
+    bool whole = length == (digits > 1 ? digits : 1) || (length > digits && name[0] != '0');
+    if (whole && fits(end, name + length, at)) return true;
   }
-  return *name == 0;
+  return false;
 }
 
 enum result views_count(const char *pattern, int count[2], struct error *error) {
@@ -89,7 +81,7 @@ enum result views_count(const char *pattern, int count[2], struct error *error) 
   char *folder = slash ? strndup(pattern, (size_t)(slash - pattern) + 1) : strdup(".");
   if (!folder) return result_no_memory(error);
   DIR *directory = opendir(folder);
-  int at[2];
+  int at[2] = {0, 0};
   enum result result = RESULT_OK;
   count[0] = count[1] = 0;
   if (!directory) result = result_fail(error, RESULT_IO, "%s: %s", folder, strerror(errno));
@@ -98,7 +90,7 @@ enum result views_count(const char *pattern, int count[2], struct error *error) 
       for (int axis = 0; axis < 2; ++axis)
         if (at[axis] >= count[axis]) count[axis] = at[axis] + 1;
   if (result == RESULT_OK && count[0] == 0)
-    result = result_fail(error, RESULT_BAD, "%s: no file in %s has such a name", pattern, folder);
+    result = result_fail(error, RESULT_BAD, "no file in %s has such a name", folder);
   if (directory) closedir(directory);
   free(folder);
   return result;

@@ -110,7 +110,8 @@ POV
   [ "$status" -eq 1 ] && [[ $stderr == *"give --window"* ]]
   import transforms.json -o s.exr --center 0,0,0 --u 2,0,0 --v 0,0,2 --normal 0,-1,0 \
     --window "-0.5,0.5,-0.5,0.5" --exposure 1.5
-  [ "$("$BAKESLAB" lookup s.exr <<<'0.1 0 0.2  0.02 -1 0.1')" = "3 3 3" ]
+  "$BAKESLAB" lookup s.exr <<<'0.1 0 0.2  0.02 -1 0.1' |
+    awk '{ print; exit !($1 == $2 && $2 == $3 && $1 > 2.99999 && $1 < 3.00001) }'
 }
 
 @test "pictures that are no good" {

@@ -46,6 +46,18 @@ static const struct faults_command faults_commands[] = {
      .line = "bakeslab import ../in/led -q -o x.tif --box --uv 2 --st 4",
      .outputs = "x.tif",
      .cost = 2},
+    {.name = "import-posed",
+     .line = "bakeslab import ../in/poses.json -q -o x.tif --uv 2 --st 2 --center 0,0,0 --u 1,0,0 "
+             "--v 0,0,1 --normal 0,-1,0 --window -1,1,-1,1",
+     .outputs = "x.tif",
+     .cost = 8,
+     .children = true},
+    {.name = "import-views",
+     .line = "bakeslab import -q -o x.tif --views ../in/v%u%v.pfm --center 0,0,0 --u 1,0,0 "
+             "--v 0,0,1 --normal 0,-1,0 --window -1,1,-1,1",
+     .outputs = "x.tif",
+     .cost = 8,
+     .children = true},
     {.name = "convert-stdout", .line = "bakeslab convert ../in/little.tif -o -"},
     {.name = "arguments", .line = "bakeslab @../in/arguments", .outputs = "x.tif"},
     {.name = "include-sheet",
