@@ -1,18 +1,21 @@
 /* focus.c
  *
- * 1. For some depths: put the rays onto the plane there, and see how well those that are held out
+ * 1. Find the lamp's opening (opening.h); only rays that are clear of its edge count below.
+ * 2. For some depths: put the rays onto the plane there, and see how well those that are held out
  *    are told (rebin.h, without samples).
- * 2. At the best depth, rebin all rays into samples on that plane: a rectangle as large as the
+ * 3. At the best depth, rebin all rays into samples on that plane: a rectangle as large as the
  *    lines through aperture and window meet, with the aperture's spacing.
- * 3. A sample of the slab is what these say along its ray. Where the depth is d, neighbours in
- *    direction see points of the plane that are d times their distance in slope apart: so many
- *    directions are made that this is one cell of the plane, or less. */
+ * 4. A sample of the slab is what these say along its ray, by the part of its cell that is open.
+ * Where the depth is d, neighbours in direction see points of the plane that are d times their
+ * distance in slope apart: so many directions are made that this is one cell of the plane, or less.
+ */
 #include "import/focus.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "import/opening.h"
 #include "slab/plane.h"
 
 enum { MOST_ST = 64, MOST_NODES = 1 << 22 };
@@ -76,7 +79,7 @@ static void carry_rays(const struct slab *slab, double depth, const struct slab 
   }
 }
 
-/* ---- Steps 1 to 3 ---- */
+/* ---- Steps 2 to 4 ---- */
 
 struct search {
   const struct rebin_ray *rays;
@@ -137,8 +140,8 @@ static bool is_known(const struct slab *plane, const bool *known, const double a
 
 /* The radiance that the plane has along the rays of the slab's samples, and what is not known of
  * it. */
-static void fill(const struct slab *plane, const bool *known, struct slab *slab,
-                 struct focus_report *report) {
+static void fill(const struct slab *plane, const bool *known, const struct opening *opening,
+                 struct slab *slab, struct focus_report *report) {
   size_t count = slab_sample_count(slab), holes = 0;
   double all = 0, filled = 0;
   for (size_t n = 0; n < count; ++n) {
@@ -154,10 +157,11 @@ static void fill(const struct slab *plane, const bool *known, struct slab *slab,
     carry(slab, report->depth, abst, ab);
     memcpy(abst, ab, sizeof ab);
     slab_lookup(plane, abst[0], abst[1], abst[2], abst[3], rgb);
-    for (int c = 0; c < 3; ++c) to[c] = (float)rgb[c];
+    double share = opening_share(opening, at[SLAB_U], at[SLAB_V]);
+    for (int c = 0; c < 3; ++c) to[c] = (float)(share * rgb[c]);
     double flux = slab_luminance(to) / (square * square); /* the cosine's fourth power */
     all += flux;
-    if (is_known(plane, known, abst)) continue;
+    if (share == 0 || is_known(plane, known, abst)) continue;
     ++holes;
     filled += flux;
   }
@@ -165,31 +169,75 @@ static void fill(const struct slab *plane, const bool *known, struct slab *slab,
   report->flux_holes = all > 0 ? filled / all : 0;
 }
 
-enum result focus_rebin(const struct rebin_ray *rays, size_t count, bool finer, struct slab *slab,
-                        struct focus_report *report, struct error *error) {
-  struct slab plane = {0};
-  bool *known = NULL;
-  struct rebin_ray *carried = malloc((count + 1) * sizeof *carried);
-  struct search search = {rays, count, slab, carried, 0, NAN};
-  enum result result = carried ? RESULT_OK : result_no_memory(error);
-  if (result == RESULT_OK) result = find_depth(&search, error);
-  double depth = search.depth;
-  if (result == RESULT_OK) {
-    lay_plane(slab, depth, &plane);
-    carry_rays(slab, depth, &plane, rays, count, carried);
-    result = slab_alloc(&plane, error);
+/* The rays that are clear of the opening's edge come first, then those at its edge, whose number is
+ * returned. */
+static size_t sort_rays(struct search *search, const struct opening *opening,
+                        struct rebin_ray *sorted) {
+  size_t clear = 0, edge = 0;
+  for (int part = OPENING_CLEAR; part <= OPENING_EDGE; ++part)
+    for (size_t n = 0; n < search->count; ++n) {
+      if (opening_part(opening, &search->rays[n]) != (enum opening_part)part) continue;
+      sorted[clear + edge] = search->rays[n];
+      ++*(part == OPENING_CLEAR ? &clear : &edge);
+    }
+  search->rays = sorted;
+  search->count = clear;
+  return edge;
+}
+
+/* What the plane has along rays at the edge of the opening. */
+static void compare_edges(const struct slab *plane, const struct search *search, size_t edges,
+                          struct opening *opening) {
+  const struct rebin_ray *edge = search->rays + search->count;
+  carry_rays(search->slab, search->depth, plane, edge, edges, search->carried);
+  for (size_t n = 0; n < edges; ++n) {
+    double abst[SLAB_AXES], rgb[3];
+    for (int axis = 0; axis < SLAB_AXES; ++axis)
+      abst[axis] = slab_position(plane, axis, 0) +
+                   (double)search->carried[n].at[axis] * slab_spacing(plane, axis);
+    slab_lookup(plane, abst[0], abst[1], abst[2], abst[3], rgb);
+    opening_compare(opening, &edge[n], 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
   }
+}
+
+/* Steps 3 and 4. */
+static enum result make_slab(const struct search *search, size_t edges, struct opening *opening,
+                             bool finer, struct slab *slab, struct focus_report *report,
+                             struct error *error) {
+  struct slab plane;
+  bool *known = NULL;
+  double depth = search->depth;
+  *report = (struct focus_report){.depth = depth};
+  lay_plane(slab, depth, &plane);
+  carry_rays(slab, depth, &plane, search->rays, search->count, search->carried);
+  enum result result = slab_alloc(&plane, error);
   if (result == RESULT_OK) {
     known = calloc(slab_sample_count(&plane), sizeof *known);
     if (!known) result = result_no_memory(error);
   }
-  *report = (struct focus_report){.depth = depth};
-  if (result == RESULT_OK) result = rebin(carried, count, &plane, known, &report->rebin, error);
+  if (result == RESULT_OK)
+    result = rebin(search->carried, search->count, &plane, known, &report->rebin, error);
+  if (result == RESULT_OK) compare_edges(&plane, search, edges, opening);
   if (result == RESULT_OK && finer) choose_directions(depth, slab);
   if (result == RESULT_OK) result = slab_alloc(slab, error);
-  if (result == RESULT_OK) fill(&plane, known, slab, report);
+  if (result == RESULT_OK) fill(&plane, known, opening, slab, report);
   free(plane.rgb);
   free(known);
-  free(carried);
+  return result;
+}
+
+enum result focus_rebin(const struct rebin_ray *rays, size_t count, bool finer, struct slab *slab,
+                        struct focus_report *report, struct error *error) {
+  struct opening opening = {0};
+  struct rebin_ray *room = calloc(2 * count + 1, sizeof *room);
+  struct search search = {rays, count, slab, room ? room + count : NULL, 0, NAN};
+  enum result result = room ? RESULT_OK : result_no_memory(error);
+  size_t edges = 0;
+  if (result == RESULT_OK) result = opening_find(rays, count, slab, &opening, error);
+  if (result == RESULT_OK) edges = sort_rays(&search, &opening, room);
+  if (result == RESULT_OK) result = find_depth(&search, error);
+  if (result == RESULT_OK) result = make_slab(&search, edges, &opening, finer, slab, report, error);
+  opening_free(&opening);
+  free(room);
   return result;
 }

@@ -3,10 +3,12 @@
  * 1. Splat: a ray adds its radiance to the 16 samples around it, by the weights that they have in
  *    the interpolation at its place; a sample is the weighted mean of what it got.
  * 2. Fill what no ray touched (rebin_levels.h).
- * 3. Such means blur, and lean to the side on which rays happen to lie. So interpolate the slab at
- *    each ray, rebin what it gets wrong there, and add that; radiance stays positive. Repeated,
- *    this is the simultaneous iteration (SIRT) that converges to the samples whose interpolation
- *    fits the rays best (P. Gilbert, J. Theor. Biol. 36, 1972).
+ * 3. Such means blur, and lean to the side on which rays happen to lie. So interpolate the samples
+ *    at each ray, rebin by how much the ray is brighter than that, and multiply by it. Repeated,
+ *    this tends to the samples whose interpolation tells the rays best; they stay positive, and
+ *    keep the rays' light, which adding the differences and cutting off what is negative does not
+ *    (the iteration of W. H. Richardson, J. Opt. Soc. Am. 62, 1972, and L. B. Lucy, Astron. J. 79,
+ *    1974).
  * 4. Where rays are few or noisy, to fit them best is not the truth. So first leave out the rays
  *    of every 8th source, and see after how many rounds these are told best; then do that with all
  *    rays. What was left out also tells the error. */
@@ -27,8 +29,8 @@ struct work {
   float *value; /* rgb of the nodes of level 0, so far */
   double *sums; /* of each source: by weight, what is wrong and what there is */
   uint32_t sources;
-  bool *held_out; /* of each source */
-  bool leave_out;
+  bool *held_out;        /* of each source */
+  bool leave_out, first; /* first: nothing is known yet */
 };
 
 /* Marks the last of every few sources that have rays; none of a single one. */
@@ -68,20 +70,23 @@ static void interpolate(const struct work *work, const size_t node[CORNERS],
     for (size_t c = 0; c < 3; ++c) rgb[c] += weight[n] * work->value[3 * node[n] + c];
 }
 
-/* What the values get wrong at each ray, splatted into level 0. */
+/* The radiance of each ray, and after the first round by how much it is that of the values there,
+ * splatted into level 0. */
 static void splat(struct work *work) {
   float *level = work->levels.node[0];
   memset(level, 0, work->nodes * REBIN_NODE * sizeof *level);
   for (size_t k = 0; k < work->count; ++k) {
     const struct rebin_ray *ray = &work->rays[k];
     size_t node[CORNERS];
-    float weight[CORNERS], rgb[3];
+    float weight[CORNERS], rgb[3], told[3];
     if (work->leave_out && work->held_out[ray->source]) continue;
     find_corners(work->levels.size[0], ray, node, weight);
     interpolate(work, node, weight, rgb);
+    for (int c = 0; c < 3; ++c)
+      told[c] = work->first ? ray->rgb[c] : rgb[c] > 0 ? ray->rgb[c] / rgb[c] : 1;
     for (int n = 0; n < CORNERS; ++n) {
       float *to = level + REBIN_NODE * node[n];
-      for (int c = 0; c < 3; ++c) to[c] += weight[n] * (ray->rgb[c] - rgb[c]);
+      for (int c = 0; c < 3; ++c) to[c] += weight[n] * told[c];
       to[3] += weight[n];
     }
   }
@@ -91,9 +96,11 @@ static void do_round(struct work *work) {
   splat(work);
   rebin_levels_fill(&work->levels);
   for (size_t n = 0; n < work->nodes; ++n)
-    for (size_t c = 0; c < 3; ++c)
-      work->value[3 * n + c] =
-          fmaxf(0, work->value[3 * n + c] + work->levels.node[0][REBIN_NODE * n + c]);
+    for (size_t c = 0; c < 3; ++c) {
+      float filled = work->levels.node[0][REBIN_NODE * n + c], *value = &work->value[3 * n + c];
+      *value = work->first ? filled : *value * filled;
+    }
+  work->first = false;
 }
 
 /* How well the rays that were held out are told. */
@@ -127,6 +134,7 @@ static void judge(struct work *work, struct rebin_report *report) {
 
 static void restart(struct work *work) {
   memset(work->value, 0, 3 * work->nodes * sizeof *work->value);
+  work->first = true;
 }
 
 /* Finds the number of rounds, and leaves the errors. */

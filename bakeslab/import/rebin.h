@@ -18,7 +18,7 @@ struct rebin_ray {
   uint32_t source; /* the picture that it is of: a source is held out as a whole */
 };
 
-/* How often what the slab gets wrong of its own rays is rebinned and added, at most. */
+/* Rounds at most: the first bins the rays, the others mend what the slab gets wrong of them. */
 enum { REBIN_ROUNDS = 12 };
 /* The last of so many sources with rays is held out to tell the error; of fewer, the last of all;
  * of one, none. */
