@@ -16,6 +16,11 @@ BAKE_OBJECTS += $(B)/bakeslab/include/templates.o
 $(B)/bakeslab/include/templates.c: $(sort $(wildcard bakeslab/include/*/*.inc.in)) bakeslab/base/embed.sh | $(SETUP_FIRST)
 	$(call embed)
 
+# Also programs for others as they are: export_X of X.py.
+BAKE_OBJECTS += $(B)/bakeslab/export/export_templates.o
+$(B)/bakeslab/export/export_templates.c: $(sort $(wildcard bakeslab/export/*.in bakeslab/export/*.py)) bakeslab/base/embed.sh | $(SETUP_FIRST)
+	$(call embed,export_)
+
 $(B)/libslab.a: $(SLAB_OBJECTS)
 $(B)/libbake.a: $(BAKE_OBJECTS)
 

@@ -12,6 +12,7 @@ static const struct cli_command commands[] = {
     {"convert", cmd_convert, "change the container, precision or resolution"},
     {"diff", cmd_diff, "compare two slabs"},
     {"include", cmd_include, "write a POV-Ray include that lights a scene"},
+    {"export", cmd_export, "write the light for other programs"},
     {0}};
 
 static const struct cli_program bakeslab = {

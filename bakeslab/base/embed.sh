@@ -1,6 +1,6 @@
 #!/bin/sh
 # embed.sh PREFIX FILE... - texts for a program, as C on stdout: NAME.KIND.glsl and
-# NAME.KIND.in become the array PREFIXNAME_KIND.
+# NAME.KIND.in become the array PREFIXNAME_KIND, NAME.py becomes PREFIXNAME.
 set -eu
 prefix=$1
 shift

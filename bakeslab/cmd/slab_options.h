@@ -13,6 +13,7 @@ int cmd_bake(int argc, char **argv);
 int cmd_check(int argc, char **argv);
 int cmd_convert(int argc, char **argv);
 int cmd_diff(int argc, char **argv);
+int cmd_export(int argc, char **argv);
 int cmd_import(int argc, char **argv);
 int cmd_include(int argc, char **argv);
 int cmd_info(int argc, char **argv);

@@ -1,0 +1,123 @@
+/* cmd_export.c - bakeslab export: a slab's light for other programs. */
+#include <string.h>
+
+#include "cmd/slab_options.h"
+#include "export/export.h"
+#include "file/slab_file.h"
+
+static const char doc[] =
+    "Writes the light of a slab for other programs, which light their scenes with it."
+    "\v"
+    "The kind follows from the ending of the output, or from --as. These make a folder, with a "
+    "README.md that says how it is used, an example, and provenance.json, which holds the error "
+    "against the slab:\n"
+    "  radiance  NAME.rad and its files for Radiance: exact\n"
+    "\n"
+    "A folder appears whole or not at all. One that is there is refused; --force replaces it as a "
+    "whole, if bakeslab export made it.\n"
+    "\n"
+    "Lamp space is left-handed with y up. A lamp point (x, y, z) is (x, z, y) in Radiance, whose "
+    "space is right-handed with z up.\n"
+    "\n"
+    "Examples:\n"
+    "  bakeslab export lamp.tif -o lamp_radiance --as radiance\n"
+    "  bakeslab export lamp.tif -o fine_radiance --as radiance --polygons 4x4\n"
+    "  bakeslab export lamp.tif -o lamp_radiance --as radiance --tolerance 0.05 \\\n"
+    "    --force";
+
+struct arguments {
+  const char *slab, *output, *as;
+  bool force;
+  struct export_wish wish;
+  const struct export_kind *kind;
+};
+
+#define ARGUMENT(member) offsetof(struct arguments, member)
+#define KEY(member) VALUE_KEY(struct arguments, member)
+
+static const struct argp_option options[] = {
+    {"output", 'o', "OUT", 0, "The file or folder to write", 1},
+    {"as", KEY(as), EXPORT_KINDS, 0, "The kind, where the ending of OUT does not say it", 1},
+    {"force", KEY(force), NULL, 0, "Replace a folder that an export made", 1},
+    {"name", 'n', "NAME", 0, "Call the lamp NAME rather than what the slab says", 1},
+    {"tolerance", KEY(wish.tolerance), "T", 0,
+     "Relative error of what a kind approximates (default 0.01); without --polygons, the error of "
+     "irradiance one aperture width away",
+     2},
+    {"polygons", KEY(wish.polygons), "NxM", 0,
+     "radiance: cut each aperture into so many sources along u and v; the default follows from "
+     "the tolerance",
+     2},
+    {0}};
+
+static const struct value values[] = {
+    {'o', VALUE_TEXT, ARGUMENT(output), 0, 0},
+    {KEY(as), VALUE_TEXT, ARGUMENT(as), 0, 0},
+    {KEY(force), VALUE_FLAG, ARGUMENT(force), 0, 0},
+    {'n', VALUE_TEXT, ARGUMENT(wish.name), 0, 0},
+    {KEY(wish.tolerance), VALUE_POSITIVE, ARGUMENT(wish.tolerance), 0, 0},
+    {KEY(wish.polygons), VALUE_SIZE, ARGUMENT(wish.polygons), 0, 0},
+    {0}};
+
+static void check_arguments(struct arguments *arguments, struct argp_state *state) {
+  if (!arguments->output) argp_error(state, "no output given: -o OUT");
+  arguments->kind = export_kind_of(arguments->as, arguments->output);
+  if (!arguments->kind && arguments->as)
+    argp_error(state, "--as %s: must be one of %s", arguments->as, EXPORT_KINDS);
+  if (!arguments->kind)
+    argp_error(state, "%s: its ending names no kind; give one of %s with --as", arguments->output,
+               EXPORT_KINDS);
+  if (arguments->wish.polygons[0] && strcmp(arguments->kind->name, "radiance") != 0)
+    argp_error(state, "--polygons: is for --as radiance only");
+}
+
+static error_t parse_option(int key, char *text, struct argp_state *state) {
+  struct arguments *arguments = state->input;
+  if (key == ARGP_KEY_SUCCESS) {
+    check_arguments(arguments, state);
+    return 0;
+  }
+  if (values_take(values, options, key, text, arguments, state) == 0) return 0;
+  return cli_parse_file(key, text, state, "slab", &arguments->slab);
+}
+
+static const char *noted; /* the slab's file, before each note */
+
+static void tell(const char *line) {
+  cli_note("%s: note: %s", noted, line);
+}
+
+static enum result check_name(struct export_wish *wish, const struct slab *slabs,
+                              struct error *error) {
+  if (!wish->name) wish->name = slabs[0].name;
+  if (export_check_name(wish->name, error) == RESULT_OK) return RESULT_OK;
+  struct error reason = *error;
+  return result_fail(error, RESULT_BAD, "%s: %s; give one with --name", wish->slab, reason.text);
+}
+
+static enum result run(void *input, struct error *error) {
+  struct arguments *arguments = input;
+  struct warnings notes = {.tell = tell};
+  struct export_wish *wish = &arguments->wish;
+  struct slab *slabs = NULL;
+  int count = 0;
+  wish->slab = noted = arguments->slab;
+  wish->command = cli_command_line();
+  wish->notes = &notes;
+  enum result result = export_check_output(arguments->kind, arguments->output, arguments->slab,
+                                           arguments->force, error);
+  if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
+  if (result == RESULT_OK) result = check_name(wish, slabs, error);
+  if (result == RESULT_OK)
+    result = export_make(arguments->kind, slabs, count, wish, arguments->output, arguments->force,
+                         error);
+  slab_file_free_all(slabs, count);
+  return result;
+}
+
+int cmd_export(int argc, char **argv) {
+  static const struct argp argp = {
+      options, parse_option, "SLAB -o OUT [--as KIND]", doc, cli_options, NULL, NULL};
+  struct arguments arguments = {.wish = {.tolerance = 0.01}};
+  return cli_run(&argp, argc, argv, run, &arguments);
+}

@@ -1,0 +1,232 @@
+#include "export/export_radiance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/sdl.h"
+#include "export/export_folder.h"
+#include "export/export_provenance.h"
+#include "export/radiance_page.h"
+#include "export/radiance_source.h"
+#include "file/json_text.h"
+#include "include/text/include_fill.h"
+#include "slab/plane.h"
+
+extern const char export_radiance_rad[], export_radiance_md[], export_radiance_example[];
+
+const double export_radiance_efficacy = 179;
+
+enum { DISTANCES = 3 };
+static const double distances[DISTANCES] = {1, 2, 4}; /* that are told, in aperture widths */
+
+/* A page with light. */
+struct page {
+  const struct slab *slab;
+  int number, polygons[2];
+  double error[DISTANCES];
+  char stem[SLAB_NAME_SIZE + 16];
+};
+
+struct lamp {
+  const struct export_wish *wish;
+  struct page *pages; /* owned */
+  int count;
+};
+
+static enum result check_radiance(const struct slab *slab, int number, struct error *error) {
+  size_t values = 3 * slab_sample_count(slab), k = 0;
+  int at[SLAB_AXES];
+  while (k < values && !(slab->rgb[k] < 0)) ++k;
+  if (k == values) return RESULT_OK;
+  slab_locate(slab, k / 3, at);
+  return result_fail(error, RESULT_BAD,
+                     "page %d: radiance %g of sample (%d, %d, %d, %d) is negative, which sources "
+                     "of Radiance do not give; make the slab without negative light, say by "
+                     "bakeslab convert --sharpen st --positive",
+                     number, (double)slab->rgb[k], at[SLAB_U], at[SLAB_V], at[SLAB_S], at[SLAB_T]);
+}
+
+/* Cuts the aperture, and finds what that errs. */
+static void cut_aperture(const struct export_wish *wish, struct page *page) {
+  if (wish->polygons[0] > 0)
+    memcpy(page->polygons, wish->polygons, sizeof page->polygons);
+  else
+    radiance_source_choose(page->slab, wish->tolerance, page->polygons);
+  for (int k = 0; k < DISTANCES; ++k)
+    page->error[k] = radiance_source_error(page->slab, page->polygons, distances[k]);
+}
+
+static enum result find_pages(const struct slab *slabs, int count, struct lamp *lamp,
+                              struct error *error) {
+  lamp->pages = calloc((size_t)count, sizeof *lamp->pages);
+  if (!lamp->pages) return result_no_memory(error);
+  for (int k = 0; k < count; ++k) {
+    enum result result = check_radiance(&slabs[k], k + 1, error);
+    if (result != RESULT_OK) return result;
+    if (!slab_is_lit(&slabs[k])) continue;
+    struct page *page = &lamp->pages[lamp->count++];
+    *page = (struct page){.slab = &slabs[k], .number = k + 1};
+    snprintf(page->stem, sizeof page->stem, "%s_%d", lamp->wish->name, k + 1);
+    cut_aperture(lamp->wish, page);
+  }
+  if (lamp->count) return RESULT_OK;
+  return result_fail(error, RESULT_BAD, "all radiance is zero: the lamp gives no light");
+}
+
+static void tell(const struct lamp *lamp) {
+  for (int k = 0; k < lamp->count; ++k) {
+    const struct page *page = &lamp->pages[k];
+    warnings_add(lamp->wish->notes,
+                 "page %d: %dx%d polygons: irradiance one aperture width away errs %.2g %% (RMS), "
+                 "with rtrace or rpict -ds %g -dj 0 -dt 0 -dc 1, which must be given%s",
+                 page->number, page->polygons[0], page->polygons[1], 100 * page->error[0],
+                 radiance_source_ds,
+                 page->error[0] > lamp->wish->tolerance ? "; more --polygons err less" : "");
+  }
+}
+
+/* Corner of the aperture: x and y from 0 to 1 along u and v. */
+static void put_corner(const struct slab *slab, double x, double y, FILE *out) {
+  double lamp[3], at[3];
+  for (int c = 0; c < 3; ++c)
+    lamp[c] = slab->center[c] + (x - 0.5) * slab->u[c] + (y - 0.5) * slab->v[c];
+  radiance_page_turn(lamp, at);
+  fprintf(out, " %.15g %.15g %.15g\n", at[0], at[1], at[2]);
+}
+
+/* Polygons face where their corners go round counter-clockwise. Radiance's space mirrors the
+ * lamp's: there u x v points along n where it does not in lamp space. */
+static bool faces_forward(const struct slab *slab) {
+  const double *u = slab->u, *v = slab->v, *n = slab->normal;
+  return (u[1] * v[2] - u[2] * v[1]) * n[0] + (u[2] * v[0] - u[0] * v[2]) * n[1] +
+             (u[0] * v[1] - u[1] * v[0]) * n[2] <
+         0;
+}
+
+static void put_polygons(const struct page *page, FILE *out) {
+  static const int corners[2][4][2] = {{{0, 0}, {0, 1}, {1, 1}, {1, 0}},
+                                       {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  const int *n = page->polygons;
+  bool forward = faces_forward(page->slab);
+  for (int j = 0; j < n[1]; ++j)
+    for (int i = 0; i < n[0]; ++i) {
+      fprintf(out, "\n%s_light polygon %s_%d_%d\n0\n0\n12\n", page->stem, page->stem, i, j);
+      for (int k = 0; k < 4; ++k) {
+        const int *corner = corners[forward][k];
+        put_corner(page->slab, (double)(i + corner[0]) / n[0], (double)(j + corner[1]) / n[1], out);
+      }
+    }
+}
+
+static void put_page(const struct page *page, FILE *out) {
+  const struct slab *slab = page->slab;
+  const char *const channels[3] = {"r", "g", "b"};
+  bool grey = radiance_page_grey(slab);
+  double unit = strcmp(slab->radiance_unit, "cd/m2") ? 1 : 1 / export_radiance_efficacy;
+  fprintf(out, "\nvoid colordata %s_data\n11 fr fg fb", page->stem);
+  for (int c = 0; c < 3; ++c) fprintf(out, " %s_%s.dat", page->stem, channels[grey ? 0 : c]);
+  fprintf(out, " %s.cal ia ib is it\n0\n0\n", page->stem);
+  fprintf(out, "\n%s_data light %s_light\n0\n0\n3 %.15g %.15g %.15g\n", page->stem, page->stem,
+          unit, unit, unit);
+  put_polygons(page, out);
+}
+
+/* Lines of the error at each distance. */
+static void put_errors(const void *of, FILE *out) {
+  const struct lamp *lamp = of;
+  for (int k = 0; k < lamp->count; ++k) {
+    const struct page *page = &lamp->pages[k];
+    for (int d = 0; d < DISTANCES; ++d)
+      fprintf(out, "%s#   page %d, %dx%d polygons, %g aperture widths away: %.2g %%",
+              k || d ? "\n" : "", page->number, page->polygons[0], page->polygons[1], distances[d],
+              100 * page->error[d]);
+  }
+}
+
+/* A floor two aperture widths before the first page, and where it is seen from. */
+static void find_scene(const struct slab *slab, double floor[12], double eye[3], double target[3],
+                       double up[3]) {
+  double width = plane_width(slab), lamp[3], seen[3], from[3];
+  for (int k = 0; k < 4; ++k) {
+    double x = k == 1 || k == 2 ? 4 : -4, y = k > 1 ? 4 : -4;
+    for (int c = 0; c < 3; ++c)
+      lamp[c] = slab->center[c] +
+                width * (2 * slab->normal[c] + x * slab->u[c] / plane_edge(slab, SLAB_U) +
+                         y * slab->v[c] / plane_edge(slab, SLAB_V));
+    radiance_page_turn(lamp, floor + 3 * k);
+  }
+  for (int c = 0; c < 3; ++c) {
+    seen[c] = slab->center[c] + 2 * width * slab->normal[c];
+    from[c] = slab->center[c] - 6 * width * slab->v[c] / plane_edge(slab, SLAB_V);
+    lamp[c] = slab->normal[c] == 0 ? 0 : -slab->normal[c]; /* no -0 in texts */
+  }
+  radiance_page_turn(seen, target);
+  radiance_page_turn(from, eye);
+  radiance_page_turn(lamp, up);
+  for (int c = 0; c < 3; ++c) target[c] -= eye[c];
+}
+
+static enum result write_texts(const struct lamp *lamp, const char *folder, struct error *error) {
+  const struct slab *first = lamp->pages[0].slab;
+  const struct {
+    const char *template, *stem, *ending;
+  } texts[] = {{export_radiance_rad, lamp->wish->name, ".rad"},
+               {export_radiance_md, "README", ".md"},
+               {export_radiance_example, "example", ".rad"}};
+  double floor[12], eye[3], target[3], up[3];
+  find_scene(first, floor, eye, target, up);
+  const struct include_value values[] = {
+      {"pages", .number = lamp->count},
+      {"several", .number = lamp->count > 1},
+      {"command", .text = lamp->wish->command, .write = sdl_comment},
+      {"ds", .number = radiance_source_ds},
+      {"errors", .print = put_errors, .of = lamp},
+      {"metres", .number = first->metres_per_unit},
+      {"unit", .text = first->radiance_unit},
+      {"photometric", .number = !strcmp(first->radiance_unit, "cd/m2")},
+      {"relative", .number = !strcmp(first->radiance_unit, "relative")},
+      {"floor", .numbers = floor},
+      {"eye", .numbers = eye},
+      {"target", .numbers = target},
+      {"up", .numbers = up},
+      {0}};
+  enum result result = RESULT_OK;
+  for (size_t k = 0; k < sizeof texts / sizeof *texts && result == RESULT_OK; ++k) {
+    FILE *out = export_folder_open(folder, texts[k].stem, texts[k].ending, error);
+    if (!out) return RESULT_IO;
+    include_fill(texts[k].template, lamp->wish->name, values, out);
+    putc('\n', out);
+    for (int page = 0; k == 0 && page < lamp->count; ++page) put_page(&lamp->pages[page], out);
+    result = export_folder_close(out, texts[k].stem, texts[k].ending, result, error);
+  }
+  return result;
+}
+
+static enum result record(const struct slab *slabs, int count, const struct lamp *lamp,
+                          const char *folder, struct error *error) {
+  unsigned long mark = json_mark();
+  json_t *errors = json_array();
+  for (int k = 0; k < lamp->count; ++k) {
+    const struct page *page = &lamp->pages[k];
+    for (int d = 0; d < DISTANCES; ++d)
+      json_array_append_new(errors,
+                            json_pack("{s:i, s:[i,i], s:f, s:f}", "page", page->number, "polygons",
+                                      page->polygons[0], page->polygons[1], "aperture_widths",
+                                      distances[d], "irradiance_rms", page->error[d]));
+  }
+  return export_provenance(slabs, count, lamp->wish, "radiance", errors, mark, folder, error);
+}
+
+enum result export_radiance(const struct slab *slabs, int count, const struct export_wish *wish,
+                            const char *path, struct error *error) {
+  struct lamp lamp = {.wish = wish};
+  enum result result = find_pages(slabs, count, &lamp, error);
+  if (result == RESULT_OK) result = write_texts(&lamp, path, error);
+  for (int k = 0; k < lamp.count && result == RESULT_OK; ++k)
+    result = radiance_page_write(lamp.pages[k].slab, wish, path, lamp.pages[k].stem, error);
+  if (result == RESULT_OK) result = record(slabs, count, &lamp, path, error);
+  if (result == RESULT_OK) tell(&lamp);
+  free(lamp.pages);
+  return result;
+}
