@@ -23,7 +23,8 @@ static const double distances[DISTANCES] = {1, 2, 4}; /* that are told, in apert
 /* A page with light. */
 struct page {
   const struct slab *slab;
-  int number, polygons[2];
+  int number;
+  struct radiance_source source;
   double error[DISTANCES];
   char stem[SLAB_NAME_SIZE + 16];
 };
@@ -49,12 +50,10 @@ static enum result check_radiance(const struct slab *slab, int number, struct er
 
 /* Cuts the aperture, and finds what that errs. */
 static void cut_aperture(const struct export_wish *wish, struct page *page) {
-  if (wish->polygons[0] > 0)
-    memcpy(page->polygons, wish->polygons, sizeof page->polygons);
-  else
-    radiance_source_choose(page->slab, wish->tolerance, page->polygons);
+  page->source = wish->polygons[0] > 0 ? radiance_source_make(page->slab, wish->polygons)
+                                       : radiance_source_choose(page->slab, wish->tolerance);
   for (int k = 0; k < DISTANCES; ++k)
-    page->error[k] = radiance_source_error(page->slab, page->polygons, distances[k]);
+    page->error[k] = radiance_source_error(page->slab, &page->source, distances[k]);
 }
 
 static enum result find_pages(const struct slab *slabs, int count, struct lamp *lamp,
@@ -80,8 +79,8 @@ static void tell(const struct lamp *lamp) {
     warnings_add(lamp->wish->notes,
                  "page %d: %dx%d polygons: irradiance one aperture width away errs %.2g %% (RMS), "
                  "with rtrace or rpict -ds %g -dj 0 -dt 0 -dc 1, which must be given%s",
-                 page->number, page->polygons[0], page->polygons[1], 100 * page->error[0],
-                 radiance_source_ds,
+                 page->number, page->source.polygons[0], page->source.polygons[1],
+                 100 * page->error[0], radiance_source_ds,
                  page->error[0] > lamp->wish->tolerance ? "; more --polygons err less" : "");
   }
 }
@@ -107,7 +106,7 @@ static bool faces_forward(const struct slab *slab) {
 static void put_polygons(const struct page *page, FILE *out) {
   static const int corners[2][4][2] = {{{0, 0}, {0, 1}, {1, 1}, {1, 0}},
                                        {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  const int *n = page->polygons;
+  const int *n = page->source.polygons;
   bool forward = faces_forward(page->slab);
   for (int j = 0; j < n[1]; ++j)
     for (int i = 0; i < n[0]; ++i) {
@@ -119,15 +118,28 @@ static void put_polygons(const struct page *page, FILE *out) {
     }
 }
 
+/* A pattern: the radiance by one set of the functions of the page's .cal. */
+static void put_pattern(const struct page *page, const char *name, const char *functions,
+                        FILE *out) {
+  static const char channels[3] = "rgb";
+  bool grey = radiance_page_grey(page->slab);
+  fprintf(out, "\nvoid colordata %s_%s\n11", page->stem, name);
+  for (int c = 0; c < 3; ++c) fprintf(out, " %c%c", functions[0], channels[c]);
+  for (int c = 0; c < 3; ++c) fprintf(out, " %s_%c.dat", page->stem, channels[grey ? 0 : c]);
+  fprintf(out, " %s.cal", page->stem);
+  for (const char *axis = "abst"; *axis; ++axis) fprintf(out, " %c%c", functions[1], *axis);
+  fprintf(out, "\n0\n0\n");
+}
+
+/* What is seen is a glow, which is no source; the source, an illum, shows it. */
 static void put_page(const struct page *page, FILE *out) {
-  const struct slab *slab = page->slab;
-  const char *const channels[3] = {"r", "g", "b"};
-  bool grey = radiance_page_grey(slab);
-  double unit = strcmp(slab->radiance_unit, "cd/m2") ? 1 : 1 / export_radiance_efficacy;
-  fprintf(out, "\nvoid colordata %s_data\n11 fr fg fb", page->stem);
-  for (int c = 0; c < 3; ++c) fprintf(out, " %s_%s.dat", page->stem, channels[grey ? 0 : c]);
-  fprintf(out, " %s.cal ia ib is it\n0\n0\n", page->stem);
-  fprintf(out, "\n%s_data light %s_light\n0\n0\n3 %.15g %.15g %.15g\n", page->stem, page->stem,
+  const char *stem = page->stem;
+  double unit = strcmp(page->slab->radiance_unit, "cd/m2") ? 1 : 1 / export_radiance_efficacy;
+  put_pattern(page, "seen", "fi", out);
+  fprintf(out, "\n%s_seen glow %s_glow\n0\n0\n4 %.15g %.15g %.15g 0\n", stem, stem, unit, unit,
+          unit);
+  put_pattern(page, "given", "gj", out);
+  fprintf(out, "\n%s_given illum %s_light\n1 %s_glow\n0\n3 %.15g %.15g %.15g\n", stem, stem, stem,
           unit, unit, unit);
   put_polygons(page, out);
 }
@@ -139,8 +151,8 @@ static void put_errors(const void *of, FILE *out) {
     const struct page *page = &lamp->pages[k];
     for (int d = 0; d < DISTANCES; ++d)
       fprintf(out, "%s#   page %d, %dx%d polygons, %g aperture widths away: %.2g %%",
-              k || d ? "\n" : "", page->number, page->polygons[0], page->polygons[1], distances[d],
-              100 * page->error[d]);
+              k || d ? "\n" : "", page->number, page->source.polygons[0], page->source.polygons[1],
+              distances[d], 100 * page->error[d]);
   }
 }
 
@@ -210,10 +222,10 @@ static enum result record(const struct slab *slabs, int count, const struct lamp
   for (int k = 0; k < lamp->count; ++k) {
     const struct page *page = &lamp->pages[k];
     for (int d = 0; d < DISTANCES; ++d)
-      json_array_append_new(errors,
-                            json_pack("{s:i, s:[i,i], s:f, s:f}", "page", page->number, "polygons",
-                                      page->polygons[0], page->polygons[1], "aperture_widths",
-                                      distances[d], "irradiance_rms", page->error[d]));
+      json_array_append_new(errors, json_pack("{s:i, s:[i,i], s:f, s:f}", "page", page->number,
+                                              "polygons", page->source.polygons[0],
+                                              page->source.polygons[1], "aperture_widths",
+                                              distances[d], "irradiance_rms", page->error[d]));
   }
   return export_provenance(slabs, count, lamp->wish, "radiance", errors, mark, folder, error);
 }
@@ -224,7 +236,8 @@ enum result export_radiance(const struct slab *slabs, int count, const struct ex
   enum result result = find_pages(slabs, count, &lamp, error);
   if (result == RESULT_OK) result = write_texts(&lamp, path, error);
   for (int k = 0; k < lamp.count && result == RESULT_OK; ++k)
-    result = radiance_page_write(lamp.pages[k].slab, wish, path, lamp.pages[k].stem, error);
+    result = radiance_page_write(lamp.pages[k].slab, &lamp.pages[k].source, wish, path,
+                                 lamp.pages[k].stem, error);
   if (result == RESULT_OK) result = record(slabs, count, &lamp, path, error);
   if (result == RESULT_OK) tell(&lamp);
   free(lamp.pages);

@@ -56,15 +56,20 @@ static enum result write_data(const struct slab *slab, int channel, const char *
   return export_folder_close(out, stem, endings[channel], RESULT_OK, error);
 }
 
-static enum result write_functions(const struct slab *slab, const struct export_wish *wish,
-                                   const char *folder, const char *stem, struct error *error) {
+static enum result write_functions(const struct slab *slab, const struct radiance_source *source,
+                                   const struct export_wish *wish, const char *folder,
+                                   const char *stem, struct error *error) {
   double center[3], normal[3], unit[2][3], ends[SLAB_AXES][2], kappa = slab_kappa(slab);
   radiance_page_turn(slab->center, center);
   radiance_page_turn(slab->normal, normal);
   radiance_page_turn(slab->u, unit[0]);
   radiance_page_turn(slab->v, unit[1]);
-  for (int k = 0; k < 2; ++k)
+  double edge[2], halvings[2];
+  for (int k = 0; k < 2; ++k) {
     for (int c = 0; c < 3; ++c) unit[k][c] /= plane_edge(slab, k);
+    edge[k] = plane_edge(slab, k) / source->polygons[k];
+    halvings[k] = source->halvings[k];
+  }
   for (int axis = 0; axis < SLAB_AXES; ++axis) axis_ends(slab, axis, ends[axis]);
   const struct include_value values[] = {{"stem", .text = stem},
                                          {"c", .numbers = center},
@@ -74,6 +79,9 @@ static enum result write_functions(const struct slab *slab, const struct export_
                                          {"kappa", .numbers = &kappa},
                                          {"ends", .numbers = ends[0]},
                                          {"window", .numbers = slab->st_window},
+                                         {"edge", .numbers = edge},
+                                         {"halvings", .numbers = halvings},
+                                         {"ds", .number = radiance_source_ds},
                                          {0}};
   FILE *out = export_folder_open(folder, stem, ".cal", error);
   if (!out) return RESULT_IO;
@@ -82,9 +90,10 @@ static enum result write_functions(const struct slab *slab, const struct export_
   return export_folder_close(out, stem, ".cal", RESULT_OK, error);
 }
 
-enum result radiance_page_write(const struct slab *slab, const struct export_wish *wish,
-                                const char *folder, const char *stem, struct error *error) {
-  enum result result = write_functions(slab, wish, folder, stem, error);
+enum result radiance_page_write(const struct slab *slab, const struct radiance_source *source,
+                                const struct export_wish *wish, const char *folder,
+                                const char *stem, struct error *error) {
+  enum result result = write_functions(slab, source, wish, folder, stem, error);
   int channels = radiance_page_grey(slab) ? 1 : 3;
   for (int c = 0; c < channels && result == RESULT_OK; ++c)
     result = write_data(slab, c, folder, stem, error);

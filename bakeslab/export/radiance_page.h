@@ -3,6 +3,7 @@
 #define RADIANCE_PAGE_H
 
 #include "export/export_wish.h"
+#include "export/radiance_source.h"
 
 /* A lamp point or vector in Radiance's space. */
 void radiance_page_turn(const double lamp[3], double radiance[3]);
@@ -11,7 +12,8 @@ void radiance_page_turn(const double lamp[3], double radiance[3]);
 bool radiance_page_grey(const struct slab *slab);
 
 /* Writes STEM.cal, and STEM_r.dat, STEM_g.dat and STEM_b.dat, of a grey page STEM_r.dat alone. */
-enum result radiance_page_write(const struct slab *slab, const struct export_wish *wish,
-                                const char *folder, const char *stem, struct error *error);
+enum result radiance_page_write(const struct slab *slab, const struct radiance_source *source,
+                                const struct export_wish *wish, const char *folder,
+                                const char *stem, struct error *error);
 
 #endif

@@ -1,0 +1,45 @@
+/* lamps.h - lamps that exports must carry: chiral, coloured, in all frames; and rays into them. */
+#ifndef LAMPS_H
+#define LAMPS_H
+
+#include <stdint.h>
+
+#include "slab/slab.h"
+
+enum { LAMP_PAGES = 2 };
+
+struct lamp {
+  const char *name;
+  int samples[SLAB_AXES];
+  double distance; /* of the st plane; INFINITY allowed */
+  double window[4];
+  int hand;  /* sign of (u x v).n; 0: with the frame of lamp space's axes, y down */
+  int pages; /* the second faces away from the first and is of the other hand */
+  const char *unit;
+};
+
+extern const struct lamp lamps[];
+extern const int lamp_count;
+
+/* Makes the pages, fills them with positive colours and writes them; the file's path. */
+const char *lamp_write(const struct lamp *lamp, struct slab pages[LAMP_PAGES]);
+void lamp_free(struct slab pages[LAMP_PAGES]);
+
+/* A ray out of the lamp in lamp space: 6 numbers, origin and direction. It leaves through the
+ * aperture of one of the pages, or just beside it, within the window or just outside. */
+void lamp_ray(const struct lamp *lamp, const struct slab *pages, uint64_t *seed, double ray[6]);
+
+/* What `bakeslab lookup` says of rays. */
+void lamp_lookup(const char *path, double (*rays)[6], int count, double (*rgb)[3]);
+
+/* `bakeslab export` with more arguments; the folder, and the exit status must be 0. */
+const char *lamp_export(const char *path, const char *folder, const char *arguments);
+
+/* Runs a shell command that reads the rows, `columns` numbers each, and prints a row of three
+ * numbers for each. Fails the test where it does not. */
+void lamp_run(const char *command, const double *rows, int columns, int count, double (*rgb)[3]);
+
+/* The largest difference. */
+double lamp_worst(double (*a)[3], double (*b)[3], int count);
+
+#endif
