@@ -108,9 +108,12 @@ static enum result run(void *input, struct error *error) {
                                            arguments->force, error);
   if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
   if (result == RESULT_OK) result = check_name(wish, slabs, error);
-  if (result == RESULT_OK)
-    result = export_make(arguments->kind, slabs, count, wish, arguments->output, arguments->force,
-                         error);
+  struct error why = {{0}};
+  if (result == RESULT_OK) {
+    result =
+        export_make(arguments->kind, slabs, count, wish, arguments->output, arguments->force, &why);
+    if (result != RESULT_OK) result_fail(error, result, "%s: %s", arguments->slab, why.text);
+  }
   slab_file_free_all(slabs, count);
   return result;
 }

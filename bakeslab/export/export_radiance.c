@@ -7,6 +7,7 @@
 #include "base/sdl.h"
 #include "export/export_folder.h"
 #include "export/export_provenance.h"
+#include "export/radiance_overlap.h"
 #include "export/radiance_page.h"
 #include "export/radiance_source.h"
 #include "file/json_text.h"
@@ -23,6 +24,7 @@ static const double distances[DISTANCES] = {1, 2, 4}; /* that are told, in apert
 /* A page with light. */
 struct page {
   const struct slab *slab;
+  struct slab sum; /* of pages that share the aperture, or zero; owned */
   int number;
   struct radiance_source source;
   double error[DISTANCES];
@@ -56,19 +58,39 @@ static void cut_aperture(const struct export_wish *wish, struct page *page) {
     page->error[k] = radiance_source_error(page->slab, &page->source, distances[k]);
 }
 
+/* A page with light: a new one, or added to that with which it shares an aperture. */
+static enum result add_page(struct lamp *lamp, const struct slab *slab, int number,
+                            struct error *error) {
+  struct page *page = lamp->pages, *end = lamp->pages + lamp->count;
+  while (page < end && !radiance_overlap(page->slab, slab)) ++page;
+  if (page == end) {
+    *page = (struct page){.slab = slab, .number = number};
+    snprintf(page->stem, sizeof page->stem, "%s_%d", lamp->wish->name, number);
+    ++lamp->count;
+    return RESULT_OK;
+  }
+  if (!radiance_overlap_alike(page->slab, slab))
+    return result_fail(error, RESULT_BAD,
+                       "pages %d and %d overlap, and Radiance sees one of two polygons in a place; "
+                       "they are added up only where all but their samples is alike: bake them "
+                       "with one --uv, --st and window",
+                       page->number, number);
+  enum result result = radiance_overlap_add(page->slab, slab, &page->sum, error);
+  page->slab = &page->sum;
+  return result;
+}
+
 static enum result find_pages(const struct slab *slabs, int count, struct lamp *lamp,
                               struct error *error) {
   lamp->pages = calloc((size_t)count, sizeof *lamp->pages);
   if (!lamp->pages) return result_no_memory(error);
   for (int k = 0; k < count; ++k) {
     enum result result = check_radiance(&slabs[k], k + 1, error);
+    if (result == RESULT_OK && slab_is_lit(&slabs[k]))
+      result = add_page(lamp, &slabs[k], k + 1, error);
     if (result != RESULT_OK) return result;
-    if (!slab_is_lit(&slabs[k])) continue;
-    struct page *page = &lamp->pages[lamp->count++];
-    *page = (struct page){.slab = &slabs[k], .number = k + 1};
-    snprintf(page->stem, sizeof page->stem, "%s_%d", lamp->wish->name, k + 1);
-    cut_aperture(lamp->wish, page);
   }
+  for (int k = 0; k < lamp->count; ++k) cut_aperture(lamp->wish, &lamp->pages[k]);
   if (lamp->count) return RESULT_OK;
   return result_fail(error, RESULT_BAD, "all radiance is zero: the lamp gives no light");
 }
@@ -170,7 +192,8 @@ static void find_scene(const struct slab *slab, double floor[12], double eye[3],
   }
   for (int c = 0; c < 3; ++c) {
     seen[c] = slab->center[c] + 2 * width * slab->normal[c];
-    from[c] = slab->center[c] - 6 * width * slab->v[c] / plane_edge(slab, SLAB_V);
+    from[c] = slab->center[c] -
+              width * (1.5 * slab->normal[c] + 4 * slab->v[c] / plane_edge(slab, SLAB_V));
     lamp[c] = slab->normal[c] == 0 ? 0 : -slab->normal[c]; /* no -0 in texts */
   }
   radiance_page_turn(seen, target);
@@ -240,6 +263,7 @@ enum result export_radiance(const struct slab *slabs, int count, const struct ex
                                  lamp.pages[k].stem, error);
   if (result == RESULT_OK) result = record(slabs, count, &lamp, path, error);
   if (result == RESULT_OK) tell(&lamp);
+  for (int k = 0; k < lamp.count; ++k) slab_free(&lamp.pages[k].sum);
   free(lamp.pages);
   return result;
 }

@@ -99,15 +99,21 @@ TEST(rays_by_rtrace) {
   }
 }
 
-/* As xform does: turned about x, mirrored in x, scaled, moved. */
-static void place(const double at[3], bool point, bool mirror, double placed[3]) {
-  double angle = 30 * acos(-1) / 180;
-  double turned[3] = {at[0], cos(angle) * at[1] - sin(angle) * at[2],
-                      sin(angle) * at[1] + cos(angle) * at[2]};
-  if (mirror) turned[0] = -turned[0];
-  for (int c = 0; c < 3; ++c) placed[c] = 2.5 * turned[c] + (point ? c + 1 : 0);
+/* In lamp space, as POV-Ray's `rotate <30, -20, 50> scale 2.5 translate <1, 2, 3>`, first mirrored
+ * in x or not: about x, y and z in turn, left-handed, y to z, z to x, x to y. */
+static void place(double at[3], bool point, bool mirror) {
+  static const double degrees[3] = {30, -20, 50};
+  if (mirror) at[0] = -at[0];
+  for (int axis = 0; axis < 3; ++axis) {
+    double angle = degrees[axis] * acos(-1) / 180;
+    double *from = &at[(axis + 1) % 3], *to = &at[(axis + 2) % 3], old = *from;
+    *from = cos(angle) * old - sin(angle) * *to;
+    *to = sin(angle) * old + cos(angle) * *to;
+  }
+  for (int c = 0; c < 3; ++c) at[c] = 2.5 * at[c] + (point ? c + 1 : 0);
 }
 
+/* The same placement, in POV-Ray's numbers and in xform's, by the rules of bakeslab/export. */
 TEST(rays_by_rtrace_through_xform) {
   if (!have_rtrace()) skip();
   for (int n = 0; n < 2 * lamp_count; ++n) {
@@ -116,17 +122,49 @@ TEST(rays_by_rtrace_through_xform) {
     char scene[256];
     const char *folder = prepare(lamp, "--polygons 1x1");
     for (int k = 0; k < RAYS; ++k) {
-      double placed[6];
-      place(looking[k], true, mirror, placed);
-      place(looking[k] + 3, false, mirror, placed + 3);
-      memcpy(looking[k], placed, sizeof placed);
+      double back[3] = {-rays[k][3], -rays[k][4], -rays[k][5]};
+      place(rays[k], true, mirror);
+      place(back, false, mirror);
+      to_radiance(rays[k], looking[k]);
+      to_radiance(back, looking[k] + 3);
     }
-    snprintf(scene, sizeof scene, "!xform -rx 30 %s -s 2.5 -t 1 2 3 %s.rad", mirror ? "-mx" : "",
-             lamp->name);
+    snprintf(scene, sizeof scene, "!xform %s -rx -30 -rz 20 -ry -50 -s 2.5 -t 1 3 2 %s.rad",
+             mirror ? "-mx" : "", lamp->name);
     trace(folder, scene, "", looking, RAYS, got);
     double worst = lamp_worst(wanted, got, RAYS);
     if (!(worst < close * watts(lamp))) fail_msg("%s: %g off", lamp->name, worst);
   }
+}
+
+/* A projector shines along lamp space's z, its picture upright as it is seen from there. In
+ * Radiance that is y, z is up, and the right hand of somebody who looks along y is y x z = x. */
+TEST(letter_reads_right) {
+  static const char *const letter[5] = {"####.", "#....", "###..", "#....", "#...."};
+  static const double forward[3] = {0, 1, 0}, up[3] = {0, 0, 1};
+  char command[1024];
+  const char *image = scratch("letter.ppm"), *slab = scratch("letter.exr");
+  FILE *file = fopen(image, "w");
+  assert_non_null(file);
+  fprintf(file, "P3\n5 5\n255\n");
+  for (int k = 0; k < 25; ++k)
+    fputs(letter[k / 5][k % 5] == '#' ? "255 255 255\n" : "0 0 0\n", file);
+  assert_int_equal(fclose(file), 0);
+  snprintf(command, sizeof command,
+           "'%s' projector '%s' -o '%s' --uv 2 --aperture 0.1 --focus 3 --width 2",
+           getenv("BAKESLAB"), image, slab);
+  assert_int_equal(system(command), 0);
+  struct rad *rad = rad_read(lamp_export(slab, "letter", "--as radiance"), "letter");
+  for (int k = 0; k < 25; ++k) {
+    double screen[3], back[3], rgb[3], right = (k % 5 - 2) * 0.4, high = (2 - k / 5) * 0.4;
+    for (int c = 0; c < 3; ++c) {
+      int y = (c + 1) % 3, z = (c + 2) % 3;
+      screen[c] = 3 * forward[c] + high * up[c] + right * (forward[y] * up[z] - forward[z] * up[y]);
+      back[c] = -screen[c];
+    }
+    rad_ray(rad, screen, back, rgb);
+    for (int c = 0; c < 3; ++c) assert_near(rgb[c], letter[k / 5][k % 5] == '#', 1e-6);
+  }
+  rad_free(rad);
 }
 
 /* Receivers that face the first page, one unit before it, over all that its light reaches. */

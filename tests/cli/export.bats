@@ -1,0 +1,68 @@
+#!/usr/bin/env bats
+# `bakeslab export`: the kinds, folders that appear whole or not at all, and what is refused.
+load slab
+
+setup() {
+  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return 1
+  raw_slab lamp.tif '[2, 2, 3, 2]' 6 4 ', "name": "lamp"' 3f800000 3f000000 3e800000
+}
+
+export_it() { "$BAKESLAB" export "$@"; }
+
+@test "a folder holds the lamp, how it is used, an example and its provenance, and nothing else" {
+  run -0 export_it lamp.tif -o out --as radiance
+  [[ $output == *"lamp.tif: note: page 1: "*"polygons"*"-ds 0.01 -dj 0 -dt 0 -dc 1"* ]]
+  [ "$(ls)" = $'lamp.tif\nout' ]
+  [ "$(ls out)" = $'README.md\nexample.rad\nlamp.rad\nlamp_1.cal\nlamp_1_b.dat\nlamp_1_g.dat\nlamp_1_r.dat\nprovenance.json' ]
+  grep -q -- '-ds 0.01 -dj 0 -dt 0 -dc 1' out/lamp.rad out/README.md
+  [ "$(jq -r '.export, .name, .command' out/provenance.json)" = $'radiance\nlamp\nbakeslab export lamp.tif -o out --as radiance' ]
+  jq -e '.error[0].irradiance_rms < 0.01 and .pages[0].name == "lamp"' out/provenance.json
+  # The same bits again.
+  mkdir again
+  (cd again && export_it ../lamp.tif -o out --as radiance -q)
+  diff -r -x provenance.json -I '^# Made by' out again/out
+}
+
+@test "a folder that is there is refused, and replaced as a whole where an export made it" {
+  export_it lamp.tif -o out --as radiance -q
+  refuses 1 out 'is there' --force -- export_it lamp.tif -o out --as radiance
+  touch out/more
+  export_it lamp.tif -o out/ --as radiance -q --force --name other
+  [ "$(ls out)" = $'README.md\nexample.rad\nother.rad\nother_1.cal\nother_1_b.dat\nother_1_g.dat\nother_1_r.dat\nprovenance.json' ]
+  mkdir mine empty
+  echo precious >mine/thing
+  refuses 1 mine 'was not made by bakeslab export' -- export_it lamp.tif -o mine --as radiance --force
+  refuses 1 lamp.tif 'no folder' -- export_it lamp.tif -o lamp.tif --as radiance --force
+  ln -s out link
+  refuses 1 link 'no folder' -- export_it lamp.tif -o link --as radiance --force
+  export_it lamp.tif -o empty --as radiance -q --force
+  [ -s empty/lamp.rad ]
+  [ "$(cat mine/thing)" = precious ]
+  [ "$(ls)" = $'empty\nlamp.tif\nlink\nmine\nout' ]
+  # What is refused leaves the old folder as it was.
+  raw_slab dark.tif '[1, 1, 1, 1]' 1 1 ', "name": "lamp"' 00000000
+  refuses 1 dark.tif 'no light' -- export_it dark.tif -o out --as radiance --force
+  [ -s out/other.rad ]
+}
+
+@test "a lamp that Radiance cannot hold, and a name that is none" {
+  raw_slab negative.tif '[1, 1, 2, 1]' 2 1 ', "name": "lamp"' 3f800000 3f800000 3f800000 3f800000 bf800000 3f800000
+  refuses 1 negative.tif 'page 1' '(0, 0, 1, 0)' negative -- export_it negative.tif -o out --as radiance
+  raw_slab nameless.tif '[1, 1, 1, 1]' 1 1 ', "name": "2 lamps"' 3f800000
+  refuses 1 nameless.tif '"2 lamps"' --name -- export_it nameless.tif -o out --as radiance
+  export_it nameless.tif -o out --as radiance -q --name two_lamps --polygons 2x1
+  [ "$(grep -c ' polygon ' out/two_lamps.rad)" -eq 2 ]
+  # One data file is enough where R = G = B.
+  [ "$(ls out/*.dat)" = out/two_lamps_1_r.dat ]
+}
+
+@test "the kind is asked for, and options are for their kind" {
+  refuses 2 'out: its ending' radiance -- export_it lamp.tif -o out
+  refuses 2 --as novel radiance -- export_it lamp.tif -o out --as novel
+  refuses 2 -o -- export_it lamp.tif --as radiance
+  refuses 2 --polygons -- export_it lamp.tif -o out --as radiance --polygons 0x2
+  refuses 2 --tolerance -- export_it lamp.tif -o out --as radiance --tolerance 0
+  refuses 1 none/out -- export_it lamp.tif -o none/out --as radiance
+  refuses 1 gone.tif -- export_it gone.tif -o out --as radiance
+  [ "$(ls)" = lamp.tif ]
+}
