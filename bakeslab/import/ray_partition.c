@@ -43,7 +43,7 @@ struct tree {
 };
 
 struct box {
-  float count, exposure, evidence; /* its logarithm, less what all partitions share */
+  float count, exposure;
 };
 
 struct work {
@@ -52,7 +52,8 @@ struct work {
   size_t boxes, step[AXES]; /* between boxes whose node differs by 1 */
   size_t cell_step[AXES];   /* between cells */
   struct box *box;
-  double scale; /* exposures are multiplied by it, so that the mean density is 1 */
+  float *evidence; /* of each box: its logarithm, less what all partitions share */
+  double scale;    /* exposures are multiplied by it, so that the mean density is 1 */
   double *density;
   struct ray_posterior posterior;
 };
@@ -150,7 +151,7 @@ static int halvings(const struct work *work, const struct place *place, size_t n
     size_t right = half(work, place, number, axis, node->right);
     halves[count][0] = left;
     halves[count][1] = right;
-    evidence[count++] = (double)work->box[left].evidence + (double)work->box[right].evidence;
+    evidence[count++] = (double)work->evidence[left] + (double)work->evidence[right];
   }
   return count;
 }
@@ -166,7 +167,7 @@ static void weigh_box(struct work *work, const struct place *place, size_t numbe
   struct box *box = &work->box[number];
   size_t halves[AXES][2];
   double evidence[AXES];
-  int axes = halvings(work, place, number, AXES, halves, evidence);
+  int axes = halvings(work, place, number, 1, halves, evidence);
   if (axes > 0) {
     const struct box *left = &work->box[halves[0][0]], *right = &work->box[halves[0][1]];
     box->count = left->count + right->count;
@@ -177,11 +178,15 @@ static void weigh_box(struct work *work, const struct place *place, size_t numbe
     box->exposure = (float)((double)work->cells->exposure[cell] * work->scale);
   }
   if (!(box->count > 0)) {
-    box->evidence = (float)log(DARK);
+    work->evidence[number] = (float)log(DARK);
     return;
   }
-  double even = even_evidence((double)box->count, (double)box->exposure);
-  box->evidence = (float)(axes ? weigh(even, evidence, axes, NULL, NULL) : even);
+  double all = even_evidence((double)box->count, (double)box->exposure);
+  if (axes > 0) {
+    axes = halvings(work, place, number, AXES, halves, evidence);
+    all = weigh(all, evidence, axes, NULL, NULL);
+  }
+  work->evidence[number] = (float)all;
 }
 
 static void weigh_boxes(struct work *work) {
@@ -214,7 +219,7 @@ static void settle(struct work *work, const struct place *place, const struct bo
   double square = density * density, weighted = square * (double)box->exposure / work->scale;
   posterior->square += weighted;
   posterior->variance -= weighted;
-  posterior->even_variance -= square;
+  posterior->view_variance -= square;
   work->density[cell_at(work, place)] += density;
 }
 
@@ -237,7 +242,10 @@ static void hand_down(struct work *work, const struct place *place, struct layer
     for (int axis = 0; axis < AXES; ++axis) size *= place->node[axis]->size;
     share->density += (float)(kept * density);
     work->posterior.variance += squares * (double)box->exposure / work->scale;
-    work->posterior.even_variance += squares * size;
+    /* Cells of a box err alike: the mean over its views errs no less than each. */
+    double views = (double)place->node[0]->size * place->node[2]->size; /* V, U: see order[] */
+    double alike = kept * density * density / count;
+    work->posterior.view_variance += size * (squares + (views - 1) * alike);
   }
   for (int n = 0; n < axes; ++n)
     for (int side = 0; side < 2; ++side) {
@@ -308,9 +316,10 @@ static bool prepare(struct work *work, int pass) {
   }
   work->scale = count / exposure;
   work->boxes = boxes;
-  work->box =
-      good && boxes < SIZE_MAX / sizeof *work->box ? malloc(boxes * sizeof *work->box) : NULL;
-  return work->box != NULL;
+  good = good && boxes < SIZE_MAX / sizeof *work->box;
+  work->box = good ? malloc(boxes * sizeof *work->box) : NULL;
+  work->evidence = good ? malloc(boxes * sizeof *work->evidence) : NULL;
+  return work->box && work->evidence;
 }
 
 enum result ray_partition_add(const struct ray_cells *cells, int pass, double *density,
@@ -326,5 +335,6 @@ enum result ray_partition_add(const struct ray_cells *cells, int pass, double *d
   *posterior = work.posterior;
   for (int axis = 0; axis < AXES; ++axis) free(work.trees[axis].nodes);
   free(work.box);
+  free(work.evidence);
   return good ? RESULT_OK : result_no_memory(error);
 }

@@ -23,7 +23,8 @@ struct ray_cells {
 struct ray_posterior {
   double square;        /* exposure times squared density */
   double variance;      /* exposure times the density's variance */
-  double even_variance; /* variance */
+  double view_variance; /* the density's variance, that of a box times its views: as if cells erred
+                           independently, but sums over views by as much */
 };
 
 /* Adds the expected density of each cell, count over exposure, by one pass to density[]. The trees'

@@ -25,7 +25,7 @@
 struct noise {
   double square;   /* integral over the etendue of the mean's square */
   double variance; /* expected squared error, relative to that */
-  double even;     /* mean over the samples of their variance, not relative */
+  double views;    /* mean over the samples of view_variance (ray_partition.h), not relative */
 };
 
 /* ---- Step 1 ---- */
@@ -44,7 +44,7 @@ static enum result estimate(const struct ray_bins *bins, const double *etendue, 
     struct ray_posterior one = {0};
     result = ray_partition_add(&cells, pass, density, &one, error);
     sum.variance += one.variance / RAY_PASSES;
-    sum.even_variance += one.even_variance / RAY_PASSES;
+    sum.view_variance += one.view_variance / RAY_PASSES;
   }
   double square = 0;
   for (size_t n = 0; n < count; ++n) {
@@ -53,7 +53,7 @@ static enum result estimate(const struct ray_bins *bins, const double *etendue, 
     noise->square += etendue[n] * density[n] * density[n];
   }
   noise->variance = fmax(sum.variance / square, 0);
-  noise->even = fmax(sum.even_variance, 0) / (double)count;
+  noise->views = fmax(sum.view_variance, 0) / (double)count;
   free(counts);
   return result;
 }
@@ -119,7 +119,7 @@ static enum result tell(const struct ray_bins *bins, const double *etendue, doub
   told->noise = told->error = sqrt(fmax(by_rays, held_out.least / noise->square));
   told->held_out = sqrt(held_out.likely / noise->square);
   told->flux_noise = sqrt((1 - share) * by_chance);
-  told->sample_noise = noise->variance > 0 ? told->noise * sqrt(noise->even / noise->variance) : 0;
+  told->sample_noise = noise->variance > 0 ? told->noise * sqrt(noise->views / noise->variance) : 0;
   double bin_variance = 0;
   for (size_t n = 0; n < slab_sample_count(&bins->page); ++n)
     bin_variance += ray_bins_quantum(bins, n, y) * bins->sums[n * numbers + (size_t)y] / etendue[n];

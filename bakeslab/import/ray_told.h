@@ -22,8 +22,9 @@ struct ray_estimate_told {
   double square;     /* integral of the squared luminance over the etendue, to weight pages by */
   double flux_noise; /* standard error of the flux, relative: by which rays leave here, and which
                         elsewhere */
-  double sample_noise; /* RMS error of the samples' luminance, each counting alike
-                          (slab_sampling.h), in the unit of radiance */
+  double sample_noise; /* RMS error of the samples' luminance, each counting alike, in the unit of
+                          radiance: as noise that is independent between them and does the same to
+                          sums over the views, which is what slab_sampling.h hands on */
 };
 
 #endif
