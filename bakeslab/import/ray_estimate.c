@@ -149,7 +149,7 @@ static enum result coarsen(const struct ray_estimate *estimate, struct best *bes
   /* halvings of uv and st, from the fewest samples to the most */
   static const int order[GRIDS - 1][2] = {{2, 2}, {2, 1}, {1, 2}, {2, 0},
                                           {1, 1}, {0, 2}, {1, 0}, {0, 1}};
-  struct blurs blurs;
+  struct blurs blurs = {.square = {{0}}};
   enum result result = find_blurs(estimate, &best->slab, &blurs, error);
   if (result != RESULT_OK) return result;
   tell_blur(blurs.square[0][0], &best->told);

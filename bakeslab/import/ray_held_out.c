@@ -89,34 +89,36 @@ static void add(struct cell *to, const struct cell *from) {
   to->etendue += from->etendue;
 }
 
+static size_t cell_number(const int samples[SLAB_AXES], const int at[SLAB_AXES]) {
+  size_t row = (size_t)at[SLAB_V] * (size_t)samples[SLAB_T] + (size_t)at[SLAB_T];
+  return (row * (size_t)samples[SLAB_U] + (size_t)at[SLAB_U]) * (size_t)samples[SLAB_S] +
+         (size_t)at[SLAB_S];
+}
+
 /* Adds up pairs of cells along some axes, in place: a pair's first comes before its second, and no
  * sum comes after what is summed. */
 static void coarsen(struct grid *grid, const bool halved[SLAB_AXES]) {
-  int at[SLAB_AXES], *samples = grid->samples, to[SLAB_AXES];
-  size_t from = 0;
-  for (int axis = 0; axis < SLAB_AXES; ++axis)
-    to[axis] = (samples[axis] + halved[axis]) >> halved[axis];
-  for (at[SLAB_V] = 0; at[SLAB_V] < samples[SLAB_V]; ++at[SLAB_V])
-    for (at[SLAB_T] = 0; at[SLAB_T] < samples[SLAB_T]; ++at[SLAB_T])
-      for (at[SLAB_U] = 0; at[SLAB_U] < samples[SLAB_U]; ++at[SLAB_U])
-        for (at[SLAB_S] = 0; at[SLAB_S] < samples[SLAB_S]; ++at[SLAB_S], ++from) {
-          int half[SLAB_AXES];
-          bool first = true;
-          for (int axis = 0; axis < SLAB_AXES; ++axis) {
-            half[axis] = at[axis] >> halved[axis];
-            first &= half[axis] << halved[axis] == at[axis];
-          }
-          size_t row = (size_t)half[SLAB_V] * (size_t)to[SLAB_T] + (size_t)half[SLAB_T];
-          struct cell *cell =
-              &grid->cells[(row * (size_t)to[SLAB_U] + (size_t)half[SLAB_U]) * (size_t)to[SLAB_S] +
-                           (size_t)half[SLAB_S]];
-          struct cell one = grid->cells[from];
-          if (first)
-            *cell = one;
-          else
-            add(cell, &one);
-        }
-  for (int axis = 0; axis < SLAB_AXES; ++axis) samples[axis] = to[axis];
+  struct slab fine = {.rgb = NULL}, coarse = {.rgb = NULL};
+  size_t count = cell_count(grid);
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    fine.samples[axis] = grid->samples[axis];
+    coarse.samples[axis] = grid->samples[axis] =
+        (fine.samples[axis] + halved[axis]) >> halved[axis];
+  }
+  for (size_t n = 0; n < count; ++n) {
+    int at[SLAB_AXES] = {0};
+    bool first = true;
+    slab_locate(&fine, n, at);
+    for (int axis = 0; axis < SLAB_AXES; ++axis) {
+      first &= !(halved[axis] && at[axis] % 2 == 1);
+      at[axis] >>= halved[axis];
+    }
+    struct cell *cell = &grid->cells[cell_number(coarse.samples, at)], one = grid->cells[n];
+    if (first)
+      *cell = one;
+    else
+      add(cell, &one);
+  }
 }
 
 /* Halves until a single cell is left; `whole` axes (or none) are at their end first. */

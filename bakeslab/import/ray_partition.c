@@ -66,7 +66,7 @@ static int cut(struct tree *tree, int low, int end, int before, int size) {
   struct node node = {.low = low, .left = -1, .right = -1, .size = end - low};
   if (node.size > 1) {
     int middle = end;
-    while (middle >= end) {
+    while (middle >= end && size > 1) {
       size /= 2;
       middle = ((low + before) / size + 1) * size - before;
     }
@@ -250,7 +250,7 @@ static void hand_down(struct work *work, const struct place *place, struct layer
   for (int n = 0; n < axes; ++n)
     for (int side = 0; side < 2; ++side) {
       /* halves along the first axis are in other layers, with lower numbers */
-      bool out = halves[n][side] < first;
+      bool out = layers->half[side] && halves[n][side] < first;
       struct share *to = out ? &layers->half[side][inside] : &layers->here[halves[n][side] - first];
       if (looked_into) to->chance += (float)(chance * shares[n]);
       if (n == 0) to->density += share->density;

@@ -62,7 +62,7 @@ static enum result estimate(const struct ray_bins *bins, const double *etendue, 
 
 /* The slab's channels are X, Y, Z, or luminance three times. */
 static enum result keep_flux(const struct ray_bins *bins, struct slab *slab, struct error *error) {
-  double flux[3], factor[3];
+  double flux[3], factor[3] = {0, 0, 0};
   enum result result = slab_flux_metric(slab, flux, error);
   for (int c = 0; c < 3 && result == RESULT_OK; ++c) {
     double wanted = bins->flux[bins->channels == 1 ? 0 : c];
@@ -87,7 +87,8 @@ static enum result fill(const struct ray_bins *bins, const double *etendue, stru
                         struct noise *noise, struct error *error) {
   size_t count = slab_sample_count(slab);
   double *density = malloc(count * sizeof *density);
-  enum result result = density ? RESULT_OK : result_no_memory(error);
+  enum result result = RESULT_OK;
+  if (!density) return result_no_memory(error);
   for (int c = 0; c < bins->channels && result == RESULT_OK; ++c) {
     struct noise one = {0};
     for (size_t n = 0; n < count; ++n) density[n] = 0;
@@ -144,9 +145,8 @@ enum result ray_samples(const struct ray_bins *bins, double whole, struct slab *
   memcpy(told->samples, bins->page.samples, sizeof told->samples);
   if (result == RESULT_OK && bins->rays > 0) {
     etendue = ray_etendue(slab);
-    if (!etendue) result = result_no_memory(error);
-    if (result == RESULT_OK) result = fill(bins, etendue, slab, &noise, error);
-    if (result == RESULT_OK) result = tell(bins, etendue, whole, &noise, told, error);
+    result = etendue ? fill(bins, etendue, slab, &noise, error) : result_no_memory(error);
+    if (etendue && result == RESULT_OK) result = tell(bins, etendue, whole, &noise, told, error);
     tell_flux(bins, told);
   }
   free(etendue);

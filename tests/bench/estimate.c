@@ -19,18 +19,6 @@ static double seconds(void) {
   return (double)clock() / CLOCKS_PER_SEC;
 }
 
-static struct slab page_of(enum known_kind kind) {
-  const double *half = known_sources[kind].half;
-  return (struct slab){.samples = {16, 16, 64, 64},
-                       .u = {2 * half[0], 0, 0},
-                       .v = {0, 2 * half[1], 0},
-                       .normal = {0, 0, 1},
-                       .st_window = {-half[2], half[2], -half[3], half[3]},
-                       .st_distance = INFINITY,
-                       .metres_per_unit = 1,
-                       .radiance_unit = "W/(sr m2)"};
-}
-
 /* Squared, of the samples against the means over their cells of a source with flux 1. */
 static double true_error(enum known_kind kind, const struct slab *slab) {
   size_t count = slab_sample_count(slab);
@@ -52,7 +40,7 @@ static void add_rays(struct ray_estimate *estimate, enum known_kind kind, double
   enum { BATCH = 100000 };
   static double abst[BATCH][SLAB_AXES];
   const double flux[3] = {1 / rays, 1 / rays, 1 / rays};
-  for (double done = 0; done < rays; done += BATCH) {
+  for (int batch = 0; batch < rays / BATCH; ++batch) {
     for (int n = 0; n < BATCH; ++n) known_ray(kind, seed, abst[n]);
     double start = seconds();
     for (int n = 0; n < BATCH; ++n) ray_estimate_add(estimate, abst[n], flux);
@@ -62,7 +50,7 @@ static void add_rays(struct ray_estimate *estimate, enum known_kind kind, double
 
 static enum result try_seed(enum known_kind kind, double rays, uint64_t seed, double tolerance,
                             struct sums *sums, struct ray_estimate_told *told) {
-  struct slab page = page_of(kind), slab;
+  struct slab page = known_page(kind, 16, 64), slab;
   struct ray_estimate *estimate;
   struct error error;
   enum result result = ray_estimate_new(&page, false, tolerance, &estimate, &error);

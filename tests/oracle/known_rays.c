@@ -15,6 +15,18 @@ const struct known_source known_sources[KNOWN_KINDS] = {
     [KNOWN_BARS] = {"bars", {0.1, 0.1, 1.5, 1.5}},
     [KNOWN_LOBE] = {"lobe", {0.1, 0.1, 1.2, 1.2}}};
 
+struct slab known_page(enum known_kind kind, int nu, int ns) {
+  const double *half = known_sources[kind].half;
+  return (struct slab){.samples = {nu, nu, ns, ns},
+                       .u = {2 * half[0], 0, 0},
+                       .v = {0, 2 * half[1], 0},
+                       .normal = {0, 0, 1},
+                       .st_window = {-half[2], half[2], -half[3], half[3]},
+                       .st_distance = INFINITY,
+                       .metres_per_unit = 1,
+                       .radiance_unit = "W/(sr m2)"};
+}
+
 static const double most = 1.5; /* the radiance of any */
 
 static bool in_beam(double s, double t) {

@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+#include "slab/slab.h"
+
 enum known_kind {
   KNOWN_SQUARE, /* a Lambertian square millimetre; the window has 92 % of it */
   KNOWN_BEAM,   /* a beam of 2 degrees, even in a cone, from a square of 10 mm */
@@ -21,6 +23,9 @@ struct known_source {
   double half[4]; /* metres, metres, slopes, slopes */
 };
 extern const struct known_source known_sources[KNOWN_KINDS];
+
+/* Its page, in W and metres, with nu^2 positions and ns^2 directions, and no samples yet. */
+struct slab known_page(enum known_kind kind, int nu, int ns);
 
 double known_radiance(enum known_kind kind, const double abst[4]);
 

@@ -12,18 +12,6 @@
 
 enum { NU = 8, NS = 32, RAYS = 20000 };
 
-static struct slab page_of(enum known_kind kind) {
-  const double *half = known_sources[kind].half;
-  return (struct slab){.samples = {NU, NU, NS, NS},
-                       .u = {2 * half[0], 0, 0},
-                       .v = {0, 2 * half[1], 0},
-                       .normal = {0, 0, 1},
-                       .st_window = {-half[2], half[2], -half[3], half[3]},
-                       .st_distance = INFINITY,
-                       .metres_per_unit = 1,
-                       .radiance_unit = "W/(sr m2)"};
-}
-
 /* What a test gives a ray: flux that is 1 on average. */
 typedef void give_flux(const double abst[SLAB_AXES], uint64_t *seed, double rgb[3]);
 
@@ -46,7 +34,7 @@ static void red_or_green(const double abst[SLAB_AXES], uint64_t *seed, double rg
 
 static struct ray_estimate *shoot(enum known_kind kind, int rays, uint64_t seed, bool coloured,
                                   double tolerance, give_flux *give, double *all) {
-  struct slab page = page_of(kind);
+  struct slab page = known_page(kind, NU, NS);
   struct ray_estimate *estimate;
   double abst[SLAB_AXES], rgb[3];
   *all = 0;
@@ -70,16 +58,26 @@ static struct slab take(struct ray_estimate *estimate, struct ray_estimate_told 
   return slab;
 }
 
-/* The error of luminances against a source whose rays carry the flux `all`, relative. */
+/* A source's cells, with the factor by which rays that carry the flux `all` make it brighter. */
+enum { CELLS = NU * NU * NS * NS };
+struct truth {
+  double mean[CELLS], etendue[CELLS], factor;
+};
+
+static const struct truth *truth_of(enum known_kind kind, double all) {
+  static struct truth truth;
+  truth.factor = all / known_cells(kind, (const int[]){NU, NU, NS, NS}, truth.mean, truth.etendue);
+  return &truth;
+}
+
+/* The error of luminances against a source, relative. */
 static double error_of(enum known_kind kind, const double *luminance, double all) {
-  enum { CELLS = NU * NU * NS * NS };
-  static double mean[CELLS], etendue[CELLS];
-  const int samples[] = {NU, NU, NS, NS};
-  double factor = all / known_cells(kind, samples, mean, etendue), error = 0, square = 0;
+  const struct truth *truth = truth_of(kind, all);
+  double error = 0, square = 0;
   for (int n = 0; n < CELLS; ++n) {
-    double difference = luminance[n] - factor * mean[n];
-    error += etendue[n] * difference * difference;
-    square += etendue[n] * factor * factor * mean[n] * mean[n];
+    double mean = truth->factor * truth->mean[n], difference = luminance[n] - mean;
+    error += truth->etendue[n] * difference * difference;
+    square += truth->etendue[n] * mean * mean;
   }
   return sqrt(error / square);
 }
@@ -93,6 +91,31 @@ static double true_error(enum known_kind kind, const struct slab *slab, double a
   return error;
 }
 
+/* The share of the flux that is in cells that the source does not reach. */
+static double share_in_dark(enum known_kind kind, const struct slab *slab, double all) {
+  const struct truth *truth = truth_of(kind, all);
+  double flux = 0;
+  for (size_t n = 0; n < CELLS; ++n)
+    if (!(truth->mean[n] > 0)) flux += truth->etendue[n] * (double)slab->rgb[3 * n];
+  return flux / all;
+}
+
+/* RMS error of the mean over the views of each direction. */
+static double error_of_views(enum known_kind kind, const struct slab *slab, double all) {
+  const struct truth *truth = truth_of(kind, all);
+  static double sum[NS][NS];
+  double square = 0;
+  memset(sum, 0, sizeof sum);
+  for (size_t n = 0; n < CELLS; ++n) {
+    int at[SLAB_AXES];
+    slab_locate(slab, n, at);
+    sum[at[SLAB_S]][at[SLAB_T]] +=
+        ((double)slab->rgb[3 * n] - truth->factor * truth->mean[n]) / (NU * NU);
+  }
+  for (int n = 0; n < NS * NS; ++n) square += sum[n / NS][n % NS] * sum[n / NS][n % NS];
+  return sqrt(square / (NS * NS));
+}
+
 static void check_flux(const struct slab *slab, const double flux[3]) {
   double interpolated[3];
   assert_int_equal(slab_flux_metric(slab, interpolated, NULL), RESULT_OK);
@@ -101,7 +124,8 @@ static void check_flux(const struct slab *slab, const double flux[3]) {
 
 /* ---- Sources of known radiance ---- */
 
-/* The told error is within 1.5 of the true one, and that is a third of plain bins' at most; the
+/* The told error is within 1.5 of the true one, and that is a third of plain bins' at most; what it
+ * says of sums over the views is within 2.5; little light gets where the source has none; the
  * slab's flux is that of the rays. */
 static void check_source(void **state) {
   enum known_kind kind = (enum known_kind)(*(const struct known_source **)state - known_sources);
@@ -114,6 +138,9 @@ static void check_source(void **state) {
     assert_true(error <= told.bins / 3 && told.error == told.noise);
     check_flux(&slab, told.flux);
     assert_near(told.flux[1], all, 1e-6 * all);
+    assert_true(share_in_dark(kind, &slab, all) <= 0.04);
+    double views = error_of_views(kind, &slab, all), told_views = told.sample_noise / NU;
+    assert_true(told_views <= 2.5 * views && told_views >= views / 2.5);
     slab_free(&slab);
   }
 }
@@ -146,7 +173,7 @@ TEST(test_square_millimetre) {
 
 /* The rays held out show the error of samples without them. */
 TEST(test_held_out) {
-  struct slab page = page_of(KNOWN_BARS);
+  struct slab page = known_page(KNOWN_BARS, NU, NS);
   struct ray_bins bins;
   struct ray_posterior posterior;
   struct ray_held_out held_out;
@@ -183,14 +210,14 @@ TEST(test_held_out) {
 /* Cells without rays beside cells of 20 rays each, whose border is at no power of two, stay dark;
  * the light ones get even. */
 TEST(test_edge) {
-  enum { CELLS = 13 * 3 * 11 * 5 };
-  static float count[CELLS], exposure[CELLS];
-  static double density[CELLS];
+  enum { EDGE = 13 * 3 * 11 * 5 };
+  static float count[EDGE], exposure[EDGE];
+  static double density[EDGE];
   struct ray_cells cells = {{13, 3, 11, 5}, count, exposure};
   struct ray_posterior posterior;
   struct slab grid = {.samples = {13, 3, 11, 5}};
   double counted = 0, kept = 0;
-  for (size_t n = 0; n < CELLS; ++n) {
+  for (size_t n = 0; n < EDGE; ++n) {
     int at[SLAB_AXES];
     slab_locate(&grid, n, at);
     exposure[n] = 2;
@@ -198,7 +225,7 @@ TEST(test_edge) {
     counted += (double)count[n];
   }
   assert_int_equal(ray_partition_add(&cells, 3, density, &posterior, NULL), RESULT_OK);
-  for (size_t n = 0; n < CELLS; ++n) {
+  for (size_t n = 0; n < EDGE; ++n) {
     if (count[n] > 0)
       assert_near(density[n], 10, 0.05);
     else
@@ -227,7 +254,7 @@ TEST(test_colours) {
 /* ---- What is left out ---- */
 
 TEST(test_refused) {
-  struct slab page = page_of(KNOWN_BARS), slab;
+  struct slab page = known_page(KNOWN_BARS, NU, NS), slab;
   struct ray_estimate *estimate;
   struct ray_estimate_told told;
   const double white[] = {1, 1, 1}, none[] = {0, 0, 0}, bad[] = {1, NAN, 1},
@@ -274,9 +301,7 @@ TEST(test_blur) {
   struct ray_estimate_told told;
   double all, error = 0, square = 0;
   struct slab slab = take(shoot(KNOWN_LOBE, 20 * RAYS, 9, false, 0.12, one_each, &all), &told);
-  double *mean = malloc(2 * sizeof *mean * NU * NU * NS * NS);
-  double factor =
-      all / known_cells(KNOWN_LOBE, (const int[]){NU, NU, NS, NS}, mean, mean + NU * NU * NS * NS);
+  double factor = truth_of(KNOWN_LOBE, all)->factor;
   uint64_t seed = 1;
   for (int n = 0; n < 20000; ++n) {
     double abst[SLAB_AXES], rgb[3];
@@ -289,7 +314,6 @@ TEST(test_blur) {
     square += cosines * truth * truth;
   }
   assert_near(sqrt(error / square), told.error, 0.5 * told.error);
-  free(mean);
   slab_free(&slab);
 }
 
@@ -310,7 +334,7 @@ static double sum_of_etendue(const struct slab *page) {
 }
 
 TEST(test_etendue) {
-  struct slab page = page_of(KNOWN_BARS);
+  struct slab page = known_page(KNOWN_BARS, NU, NS);
   const double windows[][4] = {{-1, 2, 0.5, 0.75}, {-300, 500, -40, 1e-3}, {1, 1 + 1e-6, 2, 2.5}};
   for (size_t n = 0; n < sizeof windows / sizeof *windows; ++n) {
     const double *w = windows[n];
@@ -323,7 +347,7 @@ TEST(test_etendue) {
 
 /* With the st plane near by, against the flux of a slab of radiance 1, whose weights are others. */
 TEST(test_etendue_near) {
-  struct slab page = page_of(KNOWN_BARS);
+  struct slab page = known_page(KNOWN_BARS, NU, NS);
   double flux[3];
   page.st_distance = 0.15;
   page.metres_per_unit = 0.01;
