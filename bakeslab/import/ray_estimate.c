@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "import/ray_etendue.h"
+#include "import/ray_partition.h"
 #include "import/ray_samples.h"
 #include "slab/slab_resample.h"
 
@@ -28,7 +29,8 @@ enum result ray_estimate_new(const struct slab *page, bool coloured, double tole
   *out = NULL;
   if (!estimate) return result_no_memory(error);
   estimate->tolerance = tolerance;
-  enum result result = ray_bins_new(page, coloured, &estimate->bins, error);
+  enum result result = ray_partition_check(page->samples, error);
+  if (result == RESULT_OK) result = ray_bins_new(page, coloured, &estimate->bins, error);
   if (result == RESULT_OK)
     *out = estimate;
   else

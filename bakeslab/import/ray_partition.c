@@ -28,7 +28,7 @@ static const double DARK = 0.25, HALVED = 0.5, RANGE = 20;
 static const float HARDLY = 1e-5F; /* the chance of a box that is not looked into */
 static const double MANY = 1e4;    /* rays for which a logarithm in single precision is too rough */
 
-enum { AXES = SLAB_AXES };
+enum { AXES = SLAB_AXES, MOST_GIB = 4 };
 /* The axes in the order of the raster, which is that of the boxes, too. */
 static const int order[AXES] = {SLAB_V, SLAB_T, SLAB_U, SLAB_S};
 
@@ -296,6 +296,17 @@ static bool descend(struct work *work, int number, struct share *here) {
 /* Multiples of an odd number, so that the passes' cuts differ within boxes of every size. */
 static int shift(int samples, int pass) {
   return pass * ((int)(0.36 * samples) | 1) % samples;
+}
+
+enum result ray_partition_check(const int samples[SLAB_AXES], struct error *error) {
+  double boxes = 1, each = sizeof(struct box) + sizeof(float), gib = 1 << 30;
+  for (int axis = 0; axis < AXES; ++axis) boxes *= 2.0 * samples[axis] - 1;
+  if (boxes * each <= MOST_GIB * gib) return RESULT_OK;
+  return result_fail(error, RESULT_BAD,
+                     "%dx%d x %dx%d samples by rays need %.1f GiB of memory, more than the %d that "
+                     "are allowed: take fewer by --uv and --st",
+                     samples[SLAB_U], samples[SLAB_V], samples[SLAB_S], samples[SLAB_T],
+                     boxes * each / gib, MOST_GIB);
 }
 
 static bool prepare(struct work *work, int pass) {

@@ -27,6 +27,10 @@ struct ray_posterior {
                            independently, but sums over views by as much */
 };
 
+/* Refuses more samples than there is memory for: (2 Nu - 1)(2 Nv - 1)(2 Ns - 1)(2 Nt - 1) boxes of
+ * 12 bytes are at most 4 GiB. */
+enum result ray_partition_check(const int samples[SLAB_AXES], struct error *error);
+
 /* Adds the expected density of each cell, count over exposure, by one pass to density[]. The trees'
  * cuts are at multiples of powers of two, less some cells that depend on the pass. */
 enum result ray_partition_add(const struct ray_cells *cells, int pass, double *density,

@@ -260,6 +260,8 @@ TEST(test_refused) {
   const double white[] = {1, 1, 1}, none[] = {0, 0, 0}, bad[] = {1, NAN, 1},
                inside[] = {0, 0, 0, 0};
   const double beside[] = {0.11, 0, 0, 0}, steep[] = {0, 0, 0, -1.6}, lost[] = {0, NAN, 0, 0};
+  struct slab huge = known_page(KNOWN_BARS, 1000, 1000);
+  assert_int_equal(ray_estimate_new(&huge, false, 0, &estimate, NULL), RESULT_BAD);
   assert_int_equal(ray_estimate_new(&page, false, 0, &estimate, NULL), RESULT_OK);
   assert_false(ray_estimate_add(estimate, beside, white));
   assert_false(ray_estimate_add(estimate, steep, white));
