@@ -230,7 +230,7 @@ static enum result add_page(struct work *work, int n, struct slab *slab, struct 
   told->square += square;
   told->wrong += square * report.rebin.error * report.rebin.error;
   told->bright += samples * mean_square(slab);
-  told->error += square * report.rebin.flux_error * report.rebin.flux_error;
+  told->error += square * report.rebin.mean_error * report.rebin.mean_error;
   return RESULT_OK;
 }
 
@@ -254,18 +254,23 @@ static void tell(const struct work *work, const struct told *told, struct import
   story->flux_out = told->flux;
   story->error = sqrt(told->wrong / told->square);
   story->sample_error = story->error * sqrt(told->bright / told->samples);
-  story->flux_error = sqrt(told->error) / told->flux;
+  /* Of the light in one direction, which all positions share: more than the flux's own. */
+  story->flux_error = sqrt(told->error / told->square);
   story->points = true;
   snprintf(story->assumptions, sizeof story->assumptions,
            "Pixels are radiance along their lines of sight, up to one factor, and nothing stands "
            "between lamp and cameras; %.3g %% of the samples, with %.3g %% of the flux, are shown "
            "by none of the %d pictures and are filled in.",
            filled, filled_flux, work->poses.count);
-  snprintf(story->error_is, sizeof story->error_is,
-           isfinite(story->error) ? "RMS error in every %dth picture, held out, over the RMS of "
-                                    "its light, weighted as it shines."
-                                  : "Not known: there are fewer than two pictures of a page.",
-           work->poses.count < REBIN_HELD_OUT ? work->poses.count : REBIN_HELD_OUT);
+  int period = work->poses.count < REBIN_HELD_OUT ? work->poses.count : REBIN_HELD_OUT;
+  if (isfinite(story->error))
+    snprintf(story->error_is, sizeof story->error_is,
+             "RMS error in every %dth picture, held out, over the RMS of its light, weighted as it "
+             "shines; of these pictures as a whole, by one number each, %.2g.",
+             period, story->flux_error);
+  else
+    snprintf(story->error_is, sizeof story->error_is,
+             "Not known: fewer than two pictures show a page.");
 }
 
 static enum result fill_pages(struct work *work, struct import_light *light, struct error *error) {

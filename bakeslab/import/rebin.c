@@ -105,7 +105,7 @@ static void do_round(struct work *work) {
 
 /* How well the rays that were held out are told. */
 static void judge(struct work *work, struct rebin_report *report) {
-  double wrong = 0, all = 0, wrong_means = 0, means = 0, wrong_sum = 0, sum = 0;
+  double wrong = 0, all = 0, wrong_means = 0, means = 0;
   memset(work->sums, 0, 2 * (size_t)work->sources * sizeof *work->sums);
   for (size_t k = 0; k < work->count; ++k) {
     const struct rebin_ray *ray = &work->rays[k];
@@ -124,12 +124,9 @@ static void judge(struct work *work, struct rebin_report *report) {
   for (size_t k = 0; k < work->sources; ++k) {
     wrong_means += work->sums[2 * k] * work->sums[2 * k];
     means += work->sums[2 * k + 1] * work->sums[2 * k + 1];
-    wrong_sum += work->sums[2 * k];
-    sum += work->sums[2 * k + 1];
   }
   report->error = all > 0 ? sqrt(wrong / all) : NAN;
   report->mean_error = means > 0 ? sqrt(wrong_means / means) : NAN;
-  report->flux_error = sum > 0 ? hypot(wrong_sum, sqrt(wrong_means)) / sum : NAN;
 }
 
 static void restart(struct work *work) {

@@ -27,8 +27,7 @@ enum { REBIN_HELD_OUT = 8 };
 struct rebin_report {
   int rounds;        /* chosen by the sources that were held out */
   double error;      /* relative RMS over their rays, by weight; NAN: too few sources */
-  double mean_error; /* the same of the means of sources; NAN: too few sources */
-  double flux_error; /* relative, of the flux through the slab, by the same; NAN: not known */
+  double mean_error; /* the same of sources as a whole, that is of light in one direction; NAN */
 };
 
 /* Fills the slab's samples, whose geometry and `samples` are given and which are allocated; where

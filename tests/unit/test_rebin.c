@@ -244,6 +244,19 @@ static double floor_light(const struct slab *slab, double x, double y, double be
   return sum / (points * points * below * below);
 }
 
+/* Through aperture and window, by midpoints. */
+static double lamp_flux(void) {
+  double sum = 0;
+  for (int n = 0; n < 40 * 40 * 40 * 40; ++n) {
+    const double abst[SLAB_AXES] = {
+        0.2 * ((n % 40 + 0.5) / 40 - 0.5), 0.2 * ((n / 40 % 40 + 0.5) / 40 - 0.5),
+        3 * ((n / 1600 % 40 + 0.5) / 40 - 0.5), 3 * ((n / 64000 + 0.5) / 40 - 0.5)};
+    double square = 1 + abst[2] * abst[2] + abst[3] * abst[3];
+    sum += lamp(abst) / (square * square);
+  }
+  return sum * 0.04 * 9 / (40 * 40 * 40 * 40);
+}
+
 static double floor_error(const struct slab *slab, double apertures) {
   double below = 0.2 * apertures, wrong = 0, all = 0;
   for (int j = 0; j < 16; ++j)
@@ -262,6 +275,10 @@ TEST(test_200_pictures_light_a_floor) {
     struct light light = light_of(8, 8, 11, 11);
     take_pictures(&light, 200, seed);
     do_rebin(&light);
+    double rgb[3];
+    struct error error = {{0}};
+    assert_ok(slab_flux(&light.slab, rgb, &error), &error);
+    assert_near(rgb[1] / lamp_flux(), 1, 0.025);
     for (int k = 0; k < 3; ++k) {
       double off = floor_error(&light.slab, apertures[k]);
       print_message("# seed %d, %g apertures away: %.2f %%; told %.2f %%, of means %.2f %%; holes "
