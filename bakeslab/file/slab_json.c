@@ -261,6 +261,18 @@ enum result slab_json_record_sharpening(struct slab *slab, enum slab_sharpening 
   return result;
 }
 
+/* Of light that was imported, what is known of samples that have changed: source and assumptions
+ * stay. */
+static void forget_import_error(json_t *entry, json_t *fresh) {
+  json_t *import = json_object_get(fresh, "import");
+  if (!json_is_object(import)) return;
+  json_object_set(entry, "import", import);
+  import = json_copy(import);
+  json_object_del(import, "error");
+  json_object_del(import, "error_is");
+  json_object_set_new(fresh, "import", import);
+}
+
 /* The entry of "history" that tells how the slab was made before, by its provenance. Where the
  * samples have changed, what is known of them moves there from the `fresh` one. */
 static json_t *history_entry(const json_t *provenance, json_t *fresh, bool changed) {
@@ -274,6 +286,7 @@ static json_t *history_entry(const json_t *provenance, json_t *fresh, bool chang
     json_object_set(entry, of_samples[k], json_object_get(provenance, of_samples[k]));
     json_object_del(fresh, of_samples[k]);
   }
+  if (changed) forget_import_error(entry, fresh);
   return entry;
 }
 

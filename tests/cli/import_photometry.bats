@@ -198,6 +198,10 @@ bad() {
   "$BAKESLAB" include lamp.ies -o file.inc
   grep -q "^// Source:  $told" slab.inc
   grep -q "^// Source:  $told" file.inc
+  # The error was that of the samples before.
+  "$BAKESLAB" convert lamp.tif -o coarse.tif --st 8
+  "$BAKESLAB" info coarse.tif | grep '^  imported from lamp.ies (ies): each point' >line
+  run ! grep 'error of its samples' line
   echo '0 -1 0  0 1 0' | "$RENDERSLAB" irradiance --light lamp.tif --stats stats.json >/dev/null
   jq -e '.imported[0] | .light == "lamp.tif" and .source == "lamp.ies" and .kind == "ies" and (.assumptions | length) > 20 and .error > 0 and .flux_in > 0' stats.json
 }
