@@ -12,18 +12,23 @@ static const char doc[] =
     "README.md that says how it is used, an example, and provenance.json, which holds the error "
     "against the slab:\n"
     "  radiance  NAME.rad and its files for Radiance: exact\n"
+    "These make a file, which holds the far field alone; what that loses is told:\n"
+    "  ies       IES LM-63-2002 (.ies): absolute, type C, with the size of the opening\n"
+    "  ldt       EULUMDAT (.ldt)\n"
     "\n"
     "A folder appears whole or not at all. One that is there is refused; --force replaces it as a "
     "whole, if bakeslab export made it.\n"
     "\n"
     "Lamp space is left-handed with y up. A lamp point (x, y, z) is (x, z, y) in Radiance, whose "
-    "space is right-handed with z up.\n"
+    "space is right-handed with z up. In photometric files gamma 0 is -y, C0 is +x, C90 is +z.\n"
     "\n"
     "Examples:\n"
     "  bakeslab export lamp.tif -o lamp_radiance --as radiance\n"
     "  bakeslab export lamp.tif -o fine_radiance --as radiance --polygons 4x4\n"
     "  bakeslab export lamp.tif -o lamp_radiance --as radiance --tolerance 0.05 \\\n"
-    "    --force";
+    "    --force\n"
+    "  bakeslab export lamp.tif -o lamp.ies\n"
+    "  bakeslab export lamp.tif -o lamp.ldt --tolerance 0.02";
 
 struct arguments {
   const char *slab, *output, *as;
@@ -41,8 +46,9 @@ static const struct argp_option options[] = {
     {"force", KEY(force), NULL, 0, "Replace a folder that an export made", 1},
     {"name", 'n', "NAME", 0, "Call the lamp NAME rather than what the slab says", 1},
     {"tolerance", KEY(wish.tolerance), "T", 0,
-     "Relative error of what a kind approximates (default 0.01); without --polygons, the error of "
-     "irradiance one aperture width away",
+     "Relative error of what a kind approximates (default 0.01). radiance: of irradiance one "
+     "aperture width away, without --polygons; ies, ldt: of intensities between the angles, as a "
+     "part of the largest",
      2},
     {"polygons", KEY(wish.polygons), "NxM", 0,
      "radiance: cut each aperture into so many sources along u and v; the default follows from "
@@ -67,7 +73,8 @@ static void check_arguments(struct arguments *arguments, struct argp_state *stat
   if (!arguments->kind)
     argp_error(state, "%s: its ending names no kind; give one of %s with --as", arguments->output,
                EXPORT_KINDS);
-  if (arguments->wish.polygons[0] && strcmp(arguments->kind->name, "radiance") != 0)
+  if (arguments->kind && arguments->wish.polygons[0] &&
+      strcmp(arguments->kind->name, "radiance") != 0)
     argp_error(state, "--polygons: is for --as radiance only");
 }
 
@@ -87,9 +94,10 @@ static void tell(const char *line) {
   cli_note("%s: note: %s", noted, line);
 }
 
-static enum result check_name(struct export_wish *wish, const struct slab *slabs,
-                              struct error *error) {
+static enum result check_name(const struct export_kind *kind, struct export_wish *wish,
+                              const struct slab *slabs, struct error *error) {
   if (!wish->name) wish->name = slabs[0].name;
+  if (kind->ending) return RESULT_OK; /* a text that need be no identifier */
   if (export_check_name(wish->name, error) == RESULT_OK) return RESULT_OK;
   struct error reason = *error;
   return result_fail(error, RESULT_BAD, "%s: %s; give one with --name", wish->slab, reason.text);
@@ -107,7 +115,7 @@ static enum result run(void *input, struct error *error) {
   enum result result = export_check_output(arguments->kind, arguments->output, arguments->slab,
                                            arguments->force, error);
   if (result == RESULT_OK) result = slab_file_load_all(arguments->slab, &slabs, &count, error);
-  if (result == RESULT_OK) result = check_name(wish, slabs, error);
+  if (result == RESULT_OK) result = check_name(arguments->kind, wish, slabs, error);
   struct error why = {{0}};
   if (result == RESULT_OK) {
     result =

@@ -5,9 +5,13 @@
 #include "base/output.h"
 #include "base/sdl.h"
 #include "export/export_folder.h"
+#include "export/export_photometry.h"
 #include "export/export_radiance.h"
 
-static const struct export_kind kinds[] = {{"radiance", NULL, export_radiance}, {0}};
+static const struct export_kind kinds[] = {{"radiance", NULL, export_radiance},
+                                           {"ies", ".ies", export_ies},
+                                           {"ldt", ".ldt", export_ldt},
+                                           {0}};
 
 enum { LONGEST_NAME = 63 }; /* what Blender's data blocks hold */
 

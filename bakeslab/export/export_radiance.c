@@ -172,9 +172,9 @@ static void put_errors(const void *of, FILE *out) {
   for (int k = 0; k < lamp->count; ++k) {
     const struct page *page = &lamp->pages[k];
     for (int d = 0; d < DISTANCES; ++d)
-      fprintf(out, "%s#   page %d, %dx%d polygons, %g aperture widths away: %.2g %%",
+      fprintf(out, "%s#   page %d, %dx%d polygons, %g aperture width%s away: %.2g %%",
               k || d ? "\n" : "", page->number, page->source.polygons[0], page->source.polygons[1],
-              distances[d], 100 * page->error[d]);
+              distances[d], distances[d] == 1 ? "" : "s", 100 * page->error[d]);
   }
 }
 

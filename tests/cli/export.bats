@@ -66,3 +66,24 @@ export_it() { "$BAKESLAB" export "$@"; }
   refuses 1 gone.tif -- export_it gone.tif -o out --as radiance
   [ "$(ls)" = lamp.tif ]
 }
+
+# The lumens of a slab.
+lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7152*.[1] + 0.0722*.[2]'; }
+
+@test "photometric files keep the flux, and come back as slabs" {
+  raw_slab lamp.tif '[2, 2, 3, 2]' 6 4 ', "name": "lamp", "radiance_unit": "cd/m2"' 44800000 44400000 44000000
+  run -0 export_it lamp.tif -o lamp.ies
+  [[ $output == *"flux "*" off the slab"*"far field is what is kept"*"four aperture widths"* ]]
+  export_it lamp.tif -o lamp.ldt -q
+  for file in lamp.ies lamp.ldt; do
+    "$BAKESLAB" import $file -o "$file.tif" -q
+    awk -v a="$(lumens lamp.tif)" -v b="$(lumens "$file.tif")" 'BEGIN { exit !(a > 0 && (a - b)^2 < (0.002*a)^2) }' ||
+      { echo "$file: $(lumens lamp.tif) $(lumens "$file.tif")"; false; }
+  done
+  raw_slab dark.tif '[1, 1, 1, 1]' 1 1 '' 00000000
+  refuses 1 dark.tif 'no light' -- export_it dark.tif -o dark.ies
+  raw_slab negative.tif '[1, 1, 2, 1]' 2 1 '' 40000000 40000000 40000000 bf800000 bf800000 bf800000
+  refuses 1 negative.tif 'negative light' -- export_it negative.tif -o negative.ldt
+  [ ! -e dark.ies ]
+  [ ! -e negative.ldt ]
+}

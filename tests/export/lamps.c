@@ -54,18 +54,26 @@ static void turn_away(struct slab *second, const struct slab *first) {
   }
 }
 
-const char *lamp_write(const struct lamp *lamp, struct slab pages[LAMP_PAGES]) {
+void lamp_make(const struct lamp *lamp, struct slab pages[LAMP_PAGES]) {
   uint64_t seed = 19 + (uint64_t)(lamp - lamps);
-  char name[64];
-  struct error error = {{0}};
   for (int page = 0; page < LAMP_PAGES; ++page) pages[page] = (struct slab){0};
   for (int page = 0; page < lamp->pages; ++page) pages[page] = make_page(lamp, page, &seed);
   if (lamp->pages > 1) turn_away(&pages[1], &pages[0]);
+}
+
+const char *lamp_save(const struct lamp *lamp, const struct slab pages[LAMP_PAGES]) {
+  char name[64];
+  struct error error = {{0}};
   snprintf(name, sizeof name, "%s.exr", lamp->name);
   const char *path = scratch(name);
   if (slab_file_write(path, pages, lamp->pages, SLAB_PRECISION_FLOAT, &error) != RESULT_OK)
     fail_msg("%s", error.text);
   return path;
+}
+
+const char *lamp_write(const struct lamp *lamp, struct slab pages[LAMP_PAGES]) {
+  lamp_make(lamp, pages);
+  return lamp_save(lamp, pages);
 }
 
 void lamp_free(struct slab pages[LAMP_PAGES]) {

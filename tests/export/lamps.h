@@ -21,7 +21,9 @@ struct lamp {
 extern const struct lamp lamps[];
 extern const int lamp_count;
 
-/* Makes the pages, fills them with positive colours and writes them; the file's path. */
+/* Makes the pages, filled with positive colours; and writes them. The file's path. */
+void lamp_make(const struct lamp *lamp, struct slab pages[LAMP_PAGES]);
+const char *lamp_save(const struct lamp *lamp, const struct slab pages[LAMP_PAGES]);
 const char *lamp_write(const struct lamp *lamp, struct slab pages[LAMP_PAGES]);
 void lamp_free(struct slab pages[LAMP_PAGES]);
 
