@@ -18,7 +18,8 @@ static void put_numbers(int count, const double *numbers, const char *after, FIL
 }
 
 static void put_candela(const struct far_field *field, int plane, double scale, FILE *out) {
-  const double *row = field->candela + (size_t)(plane % field->planes) * (size_t)field->angles;
+  const double *row =
+      field->candela + (size_t)(plane < field->planes ? plane : 0) * (size_t)field->angles;
   for (int k = 0; k < field->angles; ++k)
     fprintf(out, "%.6g%s", scale * row[k], k % 10 == 9 || k + 1 == field->angles ? "\r\n" : " ");
 }

@@ -24,11 +24,13 @@ bool radiance_overlap(const struct slab *a, const struct slab *b) {
 }
 
 bool radiance_overlap_alike(const struct slab *a, const struct slab *b) {
-  return !memcmp(a->samples, b->samples, sizeof a->samples) &&
-         !memcmp(a->center, b->center, sizeof a->center) && !memcmp(a->u, b->u, sizeof a->u) &&
-         !memcmp(a->v, b->v, sizeof a->v) && !memcmp(a->normal, b->normal, sizeof a->normal) &&
-         !memcmp(a->st_window, b->st_window, sizeof a->st_window) &&
-         a->st_distance == b->st_distance && !strcmp(a->radiance_unit, b->radiance_unit);
+  bool alike = a->st_distance == b->st_distance && !strcmp(a->radiance_unit, b->radiance_unit);
+  for (int k = 0; k < SLAB_AXES; ++k)
+    alike = alike && a->samples[k] == b->samples[k] && a->st_window[k] == b->st_window[k];
+  for (int c = 0; c < 3; ++c)
+    alike = alike && a->center[c] == b->center[c] && a->u[c] == b->u[c] && a->v[c] == b->v[c] &&
+            a->normal[c] == b->normal[c];
+  return alike;
 }
 
 enum result radiance_overlap_add(const struct slab *a, const struct slab *b, struct slab *sum,
