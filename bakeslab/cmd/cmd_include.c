@@ -169,13 +169,14 @@ static enum result write_files(const struct include_choice *choice, const struct
   return result;
 }
 
-static enum result choose(const struct include_source *source, struct include_wish *wish,
+static enum result choose(const struct include_source *source, const struct include_wish *asked,
                           struct include_choice *choice, struct error *error) {
   struct progress progress;
-  wish->progress = &progress;
+  struct include_wish wish = *asked;
+  wish.progress = &progress;
   progress_start(&progress, cli_quiet(), 0);
   enum result result =
-      include_choose(source->light.slabs, source->light.count, wish, choice, error);
+      include_choose(source->light.slabs, source->light.count, &wish, choice, error);
   progress_end(&progress);
   return result;
 }

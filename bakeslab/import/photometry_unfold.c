@@ -82,41 +82,34 @@ enum result photometry_unfold(struct photometry *lamp, const double *c, int plan
   return result;
 }
 
-/* Ascending values, with their negatives where they begin at 0: the source of each in *from. */
-static int mirror(const double *values, int count, double *all, int *from) {
+/* Ascending values, with their negatives where they begin at 0. Returns how many. */
+static int mirror(const double *values, int count, struct image *all) {
   int out = 0;
-  for (int n = values[0] == 0 ? count - 1 : 0; n > 0; --n) {
-    all[out] = -values[n];
-    from[out++] = n;
-  }
-  for (int n = 0; n < count; ++n) {
-    all[out] = values[n];
-    from[out++] = n;
-  }
+  for (int n = values[0] == 0 ? count - 1 : 0; n > 0; --n)
+    all[out++] = (struct image){-values[n], n};
+  for (int n = 0; n < count; ++n) all[out++] = (struct image){values[n], n};
   return out;
 }
 
 enum result photometry_unfold_sides(struct photometry *lamp, const double *h, int planes,
                                     const double *v, int rows, const double *candela,
                                     struct error *error) {
-  size_t most = 2 * (size_t)(planes > rows ? planes : rows);
-  double *all_h = malloc(2 * most * sizeof *all_h), *all_v = all_h + most;
-  int *from_h = malloc(2 * most * sizeof *from_h), *from_v = from_h + most;
-  enum result result = RESULT_OK;
-  if (!all_h || !from_h) result = result_no_memory(error);
+  struct image *across = calloc(2 * (size_t)planes, sizeof *across);
+  struct image *along = calloc(2 * (size_t)rows, sizeof *along);
+  enum result result = across && along ? RESULT_OK : result_no_memory(error);
   if (result == RESULT_OK) {
-    lamp->planes = mirror(h, planes, all_h, from_h);
-    lamp->rows = mirror(v, rows, all_v, from_v);
+    lamp->planes = mirror(h, planes, across);
+    lamp->rows = mirror(v, rows, along);
     result = photometry_alloc(lamp, error);
   }
-  if (result == RESULT_OK) {
-    memcpy(lamp->plane, all_h, (size_t)lamp->planes * sizeof *all_h);
-    memcpy(lamp->row, all_v, (size_t)lamp->rows * sizeof *all_v);
-    for (int i = 0; i < lamp->planes; ++i)
-      for (int j = 0; j < lamp->rows; ++j)
-        lamp->candela[i * lamp->rows + j] = candela[from_h[i] * rows + from_v[j]];
+  for (int i = 0; i < lamp->planes && result == RESULT_OK; ++i) {
+    lamp->plane[i] = across[i].angle;
+    for (int j = 0; j < lamp->rows; ++j) {
+      lamp->row[j] = along[j].angle;
+      lamp->candela[i * lamp->rows + j] = candela[across[i].source * rows + along[j].source];
+    }
   }
-  free(all_h);
-  free(from_h);
+  free(across);
+  free(along);
   return result;
 }

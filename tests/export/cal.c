@@ -72,8 +72,10 @@ static double named(struct reader *reader, const char *name) {
   for (int k = 0; k < reader->in->count; ++k)
     if (!strcmp(reader->in->parameters[k], name)) return reader->arguments[k];
   if (!strcmp(name, "Ts")) return cal->ray->length;
-  if (strlen(name) == 2 && strchr("PD", name[0]) && name[1] >= 'x' && name[1] <= 'z')
-    return (name[0] == 'P' ? cal->ray->point : cal->ray->direction)[name[1] - 'x'];
+  for (int k = 0; k < 3; ++k) {
+    if (!strcmp(name, (const char *const[]){"Px", "Py", "Pz"}[k])) return cal->ray->point[k];
+    if (!strcmp(name, (const char *const[]){"Dx", "Dy", "Dz"}[k])) return cal->ray->direction[k];
+  }
   return evaluate(reader->cal, name, NULL, 0);
 }
 
@@ -160,7 +162,7 @@ struct cal *cal_read(const char *path) {
   size_t size = 0;
   if (!cal || !file || getdelim(&cal->text, &size, 0, file) < 0) fail_msg("%s: not read", path);
   fclose(file);
-  for (char *c = cal->text; *c; ++c)
+  for (char *c = cal ? cal->text : NULL; c && *c; ++c)
     if (*c == '{')
       for (; *c && *c != '}'; ++c) *c = ' ';
     else if (*c == '}')

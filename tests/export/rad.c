@@ -181,7 +181,7 @@ struct rad *rad_read(const char *folder, const char *name) {
       fail_msg("%s: type %s", path, type);
   }
   fclose(in);
-  assert_true(rad->polygon_count > 0);
+  if (!rad || rad->polygon_count == 0) fail_msg("%s: no polygons", path);
   return rad;
 }
 

@@ -32,7 +32,7 @@ static void fuzz_directions(const struct photometry *lamp) {
   fuzz_check(!(fabs(photometry_flux(lamp)) > 4 * M_PI * most * (1 + 1e-9)));
 }
 
-static void fuzz_photometry(const struct photometry *lamp) {
+static inline void fuzz_photometry(const struct photometry *lamp) {
   bool c = lamp->type == PHOTOMETRY_C;
   fuzz_check(c || lamp->type == PHOTOMETRY_A || lamp->type == PHOTOMETRY_B);
   fuzz_angles(lamp->plane, lamp->planes, c ? 0 : -90, c ? 360 : 90);

@@ -319,8 +319,8 @@ TEST(test_refusals) {
       cluster_make(&slab, 1, &(struct cluster_wish){.lights = 4, .distance = 4}, &cluster, &error),
       &error, "all radiance is zero", NULL);
   cluster_free(&cluster);
-  assert_refused(point_make(&slab, 1, NULL, 4, NULL, &point, &error), &error, "all radiance is zero",
-                 NULL);
+  assert_refused(point_make(&slab, 1, NULL, 4, NULL, &point, &error), &error,
+                 "all radiance is zero", NULL);
   point_free(&point);
   slab.rgb[0] = 1;
   slab.rgb[7] = -1;
