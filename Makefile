@@ -122,7 +122,7 @@ man: $(MAN_PAGES) ## write the man pages
 # ---- Installing.
 DATA_FILES := $(POV_FILES)
 LIB_FILES := $(READS)
-MAKE_FILES := bakeslab/canned.mk
+SHARED_FILES := bakeslab/canned.mk bakeslab/export/canned_lights.py
 DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
 dest := $(DESTDIR)$(prefix)
 
@@ -130,7 +130,7 @@ install: all $(LIB_FILES) $(MAN_PAGES) $(COMPLETIONS) ## install below DESTDIR a
 	$(Q)for f in $(BIN); do install -D -m 755 $$f $(dest)/bin/$${f##*/} || exit 1; done
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
-	$(Q)for f in $(MAKE_FILES); do install -D -m 644 $$f $(dest)/share/canned/$${f##*/} || exit 1; done
+	$(Q)for f in $(SHARED_FILES); do install -D -m 644 $$f $(dest)/share/canned/$${f##*/} || exit 1; done
 	$(Q)install -D -m 755 $(IMAGE) $(dest)/lib/canned/$(notdir $(IMAGE))
 	$(Q)for f in $(LIB_FILES); do install -D -m 644 $$f $(dest)/lib/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done

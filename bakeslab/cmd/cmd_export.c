@@ -12,6 +12,8 @@ static const char doc[] =
     "README.md that says how it is used, an example, and provenance.json, which holds the error "
     "against the slab:\n"
     "  radiance  NAME.rad and its files for Radiance: exact\n"
+    "  mitsuba   NAME.xml and an emitter for Mitsuba 3: exact\n"
+    "  cycles    NAME.json and an add-on for Blender's Cycles: exact\n"
     "These make a file, which holds the far field alone; what that loses is told:\n"
     "  ies       IES LM-63-2002 (.ies): absolute, type C, with the size of the opening\n"
     "  ldt       EULUMDAT (.ldt)\n"
@@ -19,8 +21,9 @@ static const char doc[] =
     "A folder appears whole or not at all. One that is there is refused; --force replaces it as a "
     "whole, if bakeslab export made it.\n"
     "\n"
-    "Lamp space is left-handed with y up. A lamp point (x, y, z) is (x, z, y) in Radiance, whose "
-    "space is right-handed with z up. In photometric files gamma 0 is -y, C0 is +x, C90 is +z.\n"
+    "Lamp space is left-handed with y up. A lamp point (x, y, z) is (x, z, y) in Radiance "
+    "and Blender, whose space is right-handed with z up, and (x, y, -z) in Mitsuba, whose space is "
+    "right-handed with y up. In photometric files gamma 0 is -y, C0 is +x, C90 is +z.\n"
     "\n"
     "Examples:\n"
     "  bakeslab export lamp.tif -o lamp_radiance --as radiance\n"
@@ -54,6 +57,10 @@ static const struct argp_option options[] = {
      "radiance: cut each aperture into so many sources along u and v; the default follows from "
      "the tolerance",
      2},
+    {"blend", KEY(wish.blend), NULL, 0,
+     "cycles: make NAME.blend, too, with the Blender that BLENDER in the environment names, or is "
+     "installed, or with python3 and its module bpy",
+     2},
     {0}};
 
 static const struct value values[] = {
@@ -62,6 +69,7 @@ static const struct value values[] = {
     {KEY(force), VALUE_FLAG, ARGUMENT(force), 0, 0},
     {'n', VALUE_TEXT, ARGUMENT(wish.name), 0, 0},
     {KEY(wish.tolerance), VALUE_POSITIVE, ARGUMENT(wish.tolerance), 0, 0},
+    {KEY(wish.blend), VALUE_FLAG, ARGUMENT(wish.blend), 0, 0},
     {KEY(wish.polygons), VALUE_SIZE, ARGUMENT(wish.polygons), 0, 0},
     {0}};
 
@@ -76,6 +84,8 @@ static void check_arguments(struct arguments *arguments, struct argp_state *stat
   if (arguments->kind && arguments->wish.polygons[0] &&
       strcmp(arguments->kind->name, "radiance") != 0)
     argp_error(state, "--polygons: is for --as radiance only");
+  if (arguments->kind && arguments->wish.blend && strcmp(arguments->kind->name, "cycles") != 0)
+    argp_error(state, "--blend: is for --as cycles only");
 }
 
 static error_t parse_option(int key, char *text, struct argp_state *state) {

@@ -4,11 +4,15 @@
 
 #include "base/output.h"
 #include "base/sdl.h"
+#include "export/export_cycles.h"
 #include "export/export_folder.h"
+#include "export/export_mitsuba.h"
 #include "export/export_photometry.h"
 #include "export/export_radiance.h"
 
 static const struct export_kind kinds[] = {{"radiance", NULL, export_radiance},
+                                           {"mitsuba", NULL, export_mitsuba},
+                                           {"cycles", NULL, export_cycles},
                                            {"ies", ".ies", export_ies},
                                            {"ldt", ".ldt", export_ldt},
                                            {0}};

@@ -6,6 +6,7 @@
 
 #include "base/sdl.h"
 #include "export/export_folder.h"
+#include "export/export_frame.h"
 #include "export/export_provenance.h"
 #include "export/radiance_overlap.h"
 #include "export/radiance_page.h"
@@ -112,7 +113,7 @@ static void put_corner(const struct slab *slab, double x, double y, FILE *out) {
   double lamp[3], at[3];
   for (int c = 0; c < 3; ++c)
     lamp[c] = slab->center[c] + (x - 0.5) * slab->u[c] + (y - 0.5) * slab->v[c];
-  radiance_page_turn(lamp, at);
+  export_z_up(lamp, at);
   fprintf(out, " %.15g %.15g %.15g\n", at[0], at[1], at[2]);
 }
 
@@ -178,30 +179,6 @@ static void put_errors(const void *of, FILE *out) {
   }
 }
 
-/* A floor two aperture widths before the first page, and where it is seen from. */
-static void find_scene(const struct slab *slab, double floor[12], double eye[3], double target[3],
-                       double up[3]) {
-  double width = plane_width(slab), lamp[3], seen[3], from[3];
-  for (int k = 0; k < 4; ++k) {
-    double x = k == 1 || k == 2 ? 4 : -4, y = k > 1 ? 4 : -4;
-    for (int c = 0; c < 3; ++c)
-      lamp[c] = slab->center[c] +
-                width * (2 * slab->normal[c] + x * slab->u[c] / plane_edge(slab, SLAB_U) +
-                         y * slab->v[c] / plane_edge(slab, SLAB_V));
-    radiance_page_turn(lamp, floor + 3 * k);
-  }
-  for (int c = 0; c < 3; ++c) {
-    seen[c] = slab->center[c] + 2 * width * slab->normal[c];
-    from[c] = slab->center[c] -
-              width * (1.5 * slab->normal[c] + 4 * slab->v[c] / plane_edge(slab, SLAB_V));
-    lamp[c] = slab->normal[c] == 0 ? 0 : -slab->normal[c]; /* no -0 in texts */
-  }
-  radiance_page_turn(seen, target);
-  radiance_page_turn(from, eye);
-  radiance_page_turn(lamp, up);
-  for (int c = 0; c < 3; ++c) target[c] -= eye[c];
-}
-
 static enum result write_texts(const struct lamp *lamp, const char *folder, struct error *error) {
   const struct slab *first = lamp->pages[0].slab;
   const struct {
@@ -209,8 +186,9 @@ static enum result write_texts(const struct lamp *lamp, const char *folder, stru
   } texts[] = {{export_radiance_rad, lamp->wish->name, ".rad"},
                {export_radiance_md, "README", ".md"},
                {export_radiance_example, "example", ".rad"}};
-  double floor[12], eye[3], target[3], up[3];
-  find_scene(first, floor, eye, target, up);
+  const struct export_scene scene = export_scene_of(first, export_z_up);
+  double view[3];
+  for (int c = 0; c < 3; ++c) view[c] = scene.target[c] - scene.eye[c];
   const struct include_value values[] = {
       {"pages", .number = lamp->count},
       {"several", .number = lamp->count > 1},
@@ -221,10 +199,10 @@ static enum result write_texts(const struct lamp *lamp, const char *folder, stru
       {"unit", .text = first->radiance_unit},
       {"photometric", .number = !strcmp(first->radiance_unit, "cd/m2")},
       {"relative", .number = !strcmp(first->radiance_unit, "relative")},
-      {"floor", .numbers = floor},
-      {"eye", .numbers = eye},
-      {"target", .numbers = target},
-      {"up", .numbers = up},
+      {"floor", .numbers = scene.floor},
+      {"eye", .numbers = scene.eye},
+      {"view", .numbers = view},
+      {"up", .numbers = scene.up},
       {0}};
   enum result result = RESULT_OK;
   for (size_t k = 0; k < sizeof texts / sizeof *texts && result == RESULT_OK; ++k) {

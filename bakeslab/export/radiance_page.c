@@ -3,16 +3,11 @@
 #include <math.h>
 
 #include "export/export_folder.h"
+#include "export/export_frame.h"
 #include "include/text/include_fill.h"
 #include "slab/plane.h"
 
 extern const char export_radiance_cal[];
-
-void radiance_page_turn(const double lamp[3], double radiance[3]) {
-  radiance[0] = lamp[0];
-  radiance[1] = lamp[2];
-  radiance[2] = lamp[1];
-}
 
 bool radiance_page_grey(const struct slab *slab) {
   size_t count = slab_sample_count(slab);
@@ -60,10 +55,10 @@ static enum result write_functions(const struct slab *slab, const struct radianc
                                    const struct export_wish *wish, const char *folder,
                                    const char *stem, struct error *error) {
   double center[3], normal[3], unit[2][3], ends[SLAB_AXES][2], kappa = slab_kappa(slab);
-  radiance_page_turn(slab->center, center);
-  radiance_page_turn(slab->normal, normal);
-  radiance_page_turn(slab->u, unit[0]);
-  radiance_page_turn(slab->v, unit[1]);
+  export_z_up(slab->center, center);
+  export_z_up(slab->normal, normal);
+  export_z_up(slab->u, unit[0]);
+  export_z_up(slab->v, unit[1]);
   double edge[2], halvings[2];
   for (int k = 0; k < 2; ++k) {
     for (int c = 0; c < 3; ++c) unit[k][c] /= plane_edge(slab, k);

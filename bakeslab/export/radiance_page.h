@@ -5,9 +5,6 @@
 #include "export/export_wish.h"
 #include "export/radiance_source.h"
 
-/* A lamp point or vector in Radiance's space. */
-void radiance_page_turn(const double lamp[3], double radiance[3]);
-
 /* Whether all samples have R = G = B: one data file does for the three. */
 bool radiance_page_grey(const struct slab *slab);
 

@@ -13,6 +13,7 @@ setup_file() {
 @test "the programs, include files, man pages and documents are installed" {
   cmp "$ROOT/include-pov/canned.inc" "$PREFIX/share/canned/include-pov/canned.inc"
   cmp "$ROOT/bakeslab/canned.mk" "$PREFIX/share/canned/canned.mk"
+  cmp "$ROOT/bakeslab/export/canned_lights.py" "$PREFIX/share/canned/canned_lights.py"
   cmp "$ROOT/include-pov/LICENSE" "$PREFIX/share/canned/include-pov/LICENSE"
   cmp "$ROOT/README.md" "$PREFIX/share/doc/canned/README.md"
   cmp "$ROOT/lamps/parabolic.pov" "$PREFIX/share/doc/canned/lamps/parabolic.pov"
