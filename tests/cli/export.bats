@@ -87,3 +87,25 @@ lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7
   [ ! -e dark.ies ]
   [ ! -e negative.ldt ]
 }
+
+@test "folders for Mitsuba and Blender: what is in them, and what they say" {
+  run -0 export_it lamp.tif -o mitsuba --as mitsuba
+  [[ $output == *"lamp.tif: note: "*multijitter* ]]
+  [ "$(ls mitsuba)" = $'README.md\nexample.xml\nlamp.exr\nlamp.json\nlamp.xml\nprovenance.json\nslab_emitter.py' ]
+  run -0 export_it lamp.tif -o blender --as cycles
+  [[ $output == *"lamp.tif: note: "*"adaptive sampling"* ]]
+  [ "$(ls blender)" = $'README.md\ncanned_lights.py\nexample.py\nlamp.exr\nlamp.json\nprovenance.json' ]
+  cmp mitsuba/lamp.json blender/lamp.json
+  # The picture holds the samples bit by bit.
+  [ "$(oiiotool --hash lamp.tif blender/lamp.exr | grep -oE '[0-9A-F]{40}' | sort -u | wc -l)" -eq 1 ]
+  jq -e '.version == 1 and .name == "lamp" and (.pages | length == 1)
+    and (.pages[0] | .image == "lamp.exr" and .samples == [2, 2, 3, 2] and .normal == [0, -1, 0])' blender/lamp.json
+  python3 -m py_compile mitsuba/slab_emitter.py blender/canned_lights.py blender/example.py
+  # Pages without light are left out; a lamp of none is refused.
+  raw_slab dark.tif '[1, 1, 1, 1]' 1 1 ', "name": "lamp"' 00000000
+  refuses 1 dark.tif 'no light' -- export_it dark.tif -o dark --as mitsuba
+  refuses 1 dark.tif 'no light' -- export_it dark.tif -o dark --as cycles
+  refuses 2 --blend -- export_it lamp.tif -o out --as mitsuba --blend
+  BLENDER=/none/blender refuses 1 --blend -- export_it lamp.tif -o out --as cycles --blend
+  [ ! -e dark ] && [ ! -e out ]
+}

@@ -1,0 +1,280 @@
+/* test_pages.c - lamps for Mitsuba and Blender: rays into them against `bakeslab lookup`, by a
+ * reader of NAME.json, its pictures and NAME.xml that knows only light-slab(5) and how a rectangle
+ * of Mitsuba is placed; and by Mitsuba and Cycles themselves where python3 has their modules
+ * (MITSUBA_PYTHON, BLENDER_PYTHON: another python3). */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include "file/slab_exr.h"
+#include "lamps.h"
+#include "oracle/lookup.h"
+#include "oracle/random.h"
+#include "testing.h"
+
+enum { RAYS = 4000, SIDE = 32, RECEIVERS = SIDE * SIDE, NO_ENGINE = 77, NO_PYTHON = 127 };
+
+/* A page as the files tell it; its frame: u, v, normal, center, in whatever space. */
+struct page {
+  struct slab slab;
+  double frame[4][3];
+};
+
+static double rays[RAYS][6], there[RAYS][6], wanted[RAYS][3], got[RAYS][3];
+
+static double number(const json_t *page, const char *key, size_t k) {
+  const json_t *value = json_array_get(json_object_get(page, key), k);
+  assert_true(json_is_number(value));
+  return json_number_value(value);
+}
+
+static void read_page(const char *folder, const json_t *json, struct page *page) {
+  static const char *const keys[4] = {"u", "v", "normal", "center"};
+  char path[512];
+  struct picture picture = {0};
+  const json_t *distance = json_object_get(json, "st_distance");
+  page->slab = slab_default();
+  snprintf(path, sizeof path, "%s/%s", folder, json_string_value(json_object_get(json, "image")));
+  assert_int_equal(slab_exr_read(path, &picture, NULL), RESULT_OK);
+  for (size_t k = 0; k < 4; ++k) {
+    page->slab.samples[k] = (int)number(json, "samples", k);
+    page->slab.st_window[k] = number(json, "st_window", k);
+    for (size_t c = 0; c < 3; ++c) page->frame[k][c] = number(json, keys[k], c);
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    page->slab.u[c] = page->frame[0][c];
+    page->slab.v[c] = page->frame[1][c];
+  }
+  page->slab.st_distance = json_is_number(distance) ? json_number_value(distance) : INFINITY;
+  assert_int_equal(picture.width, page->slab.samples[0] * page->slab.samples[2]);
+  assert_int_equal(picture.height, page->slab.samples[1] * page->slab.samples[3]);
+  page->slab.rgb = picture.rgb;
+}
+
+static int read_pages(const char *folder, const char *name, struct page pages[LAMP_PAGES]) {
+  char path[512];
+  snprintf(path, sizeof path, "%s/%s.json", folder, name);
+  json_t *root = json_load_file(path, 0, NULL);
+  assert_string_equal(json_string_value(json_object_get(root, "format")), "light-slab-pages");
+  const json_t *array = json_object_get(root, "pages");
+  int count = (int)json_array_size(array);
+  assert_in_range(count, 1, LAMP_PAGES);
+  for (int k = 0; k < count; ++k) read_page(folder, json_array_get(array, (size_t)k), &pages[k]);
+  json_decref(root);
+  return count;
+}
+
+/* Puts the frames of NAME.xml in place: the columns of each matrix are u/2, v/2, normal, center. */
+static void read_xml(const char *folder, const char *name, struct page *pages, int count) {
+  static const double scale[4] = {2, 2, 1, 1};
+  static const char before[] = "<matrix value=\"";
+  char path[512], line[1024];
+  int page = 0;
+  snprintf(path, sizeof path, "%s/%s.xml", folder, name);
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  while (fgets(line, sizeof line, file)) {
+    char *at = strstr(line, before);
+    if (!at || strchr(at, '$')) continue;
+    assert_true(page < count);
+    at += strlen(before);
+    for (int k = 0; k < 12; ++k) pages[page].frame[k % 4][k / 4] = scale[k % 4] * strtod(at, &at);
+    ++page;
+  }
+  fclose(file);
+  assert_int_equal(page, count);
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Light of all pages along a ray out of the lamp, whose space is the frames'. */
+static void see(const struct page *pages, int count, const double ray[6], double rgb[3]) {
+  rgb[0] = rgb[1] = rgb[2] = 0;
+  for (int k = 0; k < count; ++k) {
+    const double(*frame)[3] = pages[k].frame, *direction = ray + 3;
+    double out = dot(direction, frame[2]), at[3], abst[4], light[3];
+    if (!(out > 0)) continue;
+    for (int c = 0; c < 3; ++c) at[c] = ray[c] - frame[3][c];
+    double behind = dot(at, frame[2]) / out;
+    for (int axis = 0; axis < 2; ++axis) {
+      double edge = sqrt(dot(frame[axis], frame[axis]));
+      abst[axis] = (dot(at, frame[axis]) - behind * dot(direction, frame[axis])) / edge;
+      abst[2 + axis] =
+          dot(direction, frame[axis]) / edge / out + abst[axis] / pages[k].slab.st_distance;
+    }
+    oracle_lookup(&pages[k].slab, abst, light);
+    for (int c = 0; c < 3; ++c) rgb[c] += light[c];
+  }
+}
+
+/* y up. */
+static void to_mitsuba(const double lamp[3], double mitsuba[3]) {
+  mitsuba[0] = lamp[0];
+  mitsuba[1] = lamp[1];
+  mitsuba[2] = -lamp[2];
+}
+
+/* The lamp's rays and what they are to see; the folder with the export. */
+static const char *prepare(const struct lamp *lamp, const char *kind) {
+  struct slab pages[LAMP_PAGES];
+  uint64_t seed = 77;
+  const char *path = lamp_write(lamp, pages);
+  for (int k = 0; k < RAYS; ++k) {
+    lamp_ray(lamp, pages, &seed, rays[k]);
+    for (int c = 0; c < 3; ++c) rays[k][c] += 2 * rays[k][3 + c]; /* in front of the aperture */
+  }
+  lamp_free(pages);
+  lamp_lookup(path, rays, RAYS, wanted);
+  return lamp_export(path, "out", kind);
+}
+
+static void check(const struct lamp *lamp, double allowed) {
+  double worst = lamp_worst(wanted, got, RAYS);
+  if (!(worst < allowed)) fail_msg("%s: %g off", lamp->name, worst);
+}
+
+TEST(rays_by_the_text) {
+  for (int n = 0; n < lamp_count; ++n) {
+    struct page pages[LAMP_PAGES];
+    const char *folder = prepare(&lamps[n], "--as mitsuba");
+    int count = read_pages(folder, lamps[n].name, pages);
+    for (int k = 0; k < RAYS; ++k) see(pages, count, rays[k], got[k]);
+    check(&lamps[n], 1e-6);
+    read_xml(folder, lamps[n].name, pages, count);
+    for (int k = 0; k < RAYS; ++k) {
+      double ray[6];
+      to_mitsuba(rays[k], ray);
+      to_mitsuba(rays[k] + 3, ray + 3);
+      see(pages, count, ray, got[k]);
+    }
+    check(&lamps[n], 1e-6);
+    for (int k = 0; k < count; ++k) slab_free(&pages[k].slab);
+  }
+}
+
+/* Whether a script's exit status is that of a python3 without the engine. */
+static bool lacks(const char *python, const char *script) {
+  char command[512];
+  snprintf(command, sizeof command, "%s tests/export/%s </dev/null >'%s' 2>&1", python, script,
+           scratch("said"));
+  int status = WEXITSTATUS(system(command));
+  if (status != NO_ENGINE && status != NO_PYTHON) return false;
+  print_message("# skipped: no engine for %s\n", script);
+  return true;
+}
+
+static const char *python_of(const char *variable) {
+  const char *given = getenv(variable);
+  return given && *given ? given : "python3";
+}
+
+static void ask_mitsuba(const char *task, const char *folder, const struct lamp *lamp,
+                        const char *place, double (*rows)[6], int count, double (*rgb)[3]) {
+  char command[1024];
+  snprintf(command, sizeof command, "%s tests/export/mitsuba_rays.py %s '%s' %s %s",
+           python_of("MITSUBA_PYTHON"), task, folder, lamp->name, place);
+  lamp_run(command, rows[0], 6, count, rgb);
+}
+
+/* Turned, mirrored and scaled by 2.5. */
+static const double place[3][4] = {{-1.5, 2, 0, 1}, {2, 1.5, 0, -2}, {0, 0, 2.5, 0.5}};
+static const char place_text[] = "'-1.5 2 0 1 2 1.5 0 -2 0 0 2.5 .5 0 0 0 1'";
+
+TEST(rays_by_mitsuba) {
+  if (lacks(python_of("MITSUBA_PYTHON"), "mitsuba_rays.py")) skip();
+  for (int n = 0; n < 2 * lamp_count; ++n) {
+    const struct lamp *lamp = &lamps[n / 2];
+    const char *folder = prepare(lamp, "--as mitsuba");
+    for (int k = 0; k < RAYS; ++k) {
+      double at[3], out[3];
+      to_mitsuba(rays[k], at);
+      to_mitsuba(rays[k] + 3, out);
+      for (int c = 0; c < 3; ++c) {
+        there[k][c] = n % 2 ? dot(place[c], at) + place[c][3] : at[c];
+        there[k][3 + c] = n % 2 ? -dot(place[c], out) : -out[c];
+      }
+    }
+    ask_mitsuba("rays", folder, lamp, n % 2 ? place_text : "", there, RAYS, got);
+    check(lamp, 1e-4);
+  }
+}
+
+/* Receivers that face the first page, one unit before it, over all that its light reaches. */
+static void make_receivers(const struct slab *slab) {
+  for (int k = 0; k < RECEIVERS; ++k) {
+    double at[2], cell[2] = {(k % SIDE + 0.5) / SIDE, (k / SIDE + 0.5) / SIDE};
+    for (int axis = 0; axis < 2; ++axis) {
+      const double *window = slab->st_window + 2 * axis;
+      double edge = sqrt(axis ? dot(slab->v, slab->v) : dot(slab->u, slab->u));
+      double half = (1 + 1 / slab->st_distance) * edge / 2;
+      at[axis] = (window[0] - half + cell[axis] * (window[1] - window[0] + 2 * half)) / edge;
+    }
+    for (int c = 0; c < 3; ++c) {
+      rays[k][c] = slab->center[c] + slab->normal[c] + at[0] * slab->u[c] + at[1] * slab->v[c];
+      rays[k][3 + c] = -slab->normal[c];
+    }
+    to_mitsuba(rays[k], there[k]);
+    to_mitsuba(rays[k] + 3, there[k] + 3);
+  }
+}
+
+/* With the samples that its README asks for. */
+TEST(irradiance_by_mitsuba) {
+  if (lacks(python_of("MITSUBA_PYTHON"), "mitsuba_rays.py")) skip();
+  for (int n = 0; n < lamp_count; ++n) {
+    struct slab pages[LAMP_PAGES];
+    char command[512];
+    const char *path = lamp_write(&lamps[n], pages);
+    make_receivers(&pages[0]);
+    lamp_free(pages);
+    snprintf(command, sizeof command, "'%s' irradiance --light '%s' --method reference",
+             getenv("RENDERSLAB"), path);
+    lamp_run(command, rays[0], 6, RECEIVERS, wanted);
+    ask_mitsuba("irradiance", lamp_export(path, "out", "--as mitsuba"), &lamps[n], "", there,
+                RECEIVERS, got);
+    double off = 0, all = 0;
+    for (int k = 0; k < RECEIVERS; ++k)
+      for (int c = 0; c < 3; ++c) {
+        off += (got[k][c] - wanted[k][c]) * (got[k][c] - wanted[k][c]);
+        all += wanted[k][c] * wanted[k][c];
+      }
+    print_message("# %s: irradiance %.2f %% off\n", lamps[n].name, 100 * sqrt(off / all));
+    if (!(all > 0 && sqrt(off / all) < 0.01))
+      fail_msg("%s: irradiance %g off", lamps[n].name, sqrt(off / all));
+  }
+}
+
+/* Cycles chooses the rays; what they see is asked of the slab. */
+static void ask_cycles(const struct lamp *lamp, const char *placed) {
+  struct slab pages[LAMP_PAGES];
+  const char *path = lamp_write(lamp, pages), *chosen = scratch("rays");
+  char command[1024];
+  lamp_free(pages);
+  snprintf(command, sizeof command, "%s tests/export/blender_rays.py '%s' %s %d '%s' %s",
+           python_of("BLENDER_PYTHON"), lamp_export(path, "out", "--as cycles"), lamp->name, RAYS,
+           chosen, placed);
+  lamp_run(command, rays[0], 6, RAYS, got);
+  FILE *file = fopen(chosen, "r");
+  assert_non_null(file);
+  for (int k = 0; k < 6 * RAYS; ++k) assert_int_equal(fscanf(file, "%lf", &rays[k / 6][k % 6]), 1);
+  fclose(file);
+  lamp_lookup(path, rays, RAYS, wanted);
+  int lit = 0;
+  for (int k = 0; k < RAYS; ++k) lit += wanted[k][0] > 0;
+  assert_true(lit > RAYS / 20);
+  check(lamp, 1e-4);
+}
+
+TEST(rays_by_cycles) {
+  if (lacks(python_of("BLENDER_PYTHON"), "blender_rays.py")) skip();
+  for (int n = 0; n < lamp_count; ++n) ask_cycles(&lamps[n], n % 2 ? "placed" : "");
+}
+
+int main(void) {
+  return testing_run(NULL, NULL);
+}
