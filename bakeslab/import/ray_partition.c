@@ -212,14 +212,13 @@ struct layers {
   struct share *here, *half[2];
 };
 
-/* The density of a single cell, its box, is known. */
+/* The density of a single cell, its box, is known. Variances are of densities less the mean one, so
+ * that little is lost where all are nearly that. */
 static void settle(struct work *work, const struct place *place, const struct box *box,
                    double density) {
-  struct ray_posterior *posterior = &work->posterior;
-  double square = density * density, weighted = square * (double)box->exposure / work->scale;
-  posterior->square += weighted;
-  posterior->variance -= weighted;
-  posterior->view_variance -= square;
+  double square = (density - work->scale) * (density - work->scale);
+  work->posterior.variance -= square * (double)box->exposure / work->scale;
+  work->posterior.view_variance -= square;
   work->density[cell_at(work, place)] += density;
 }
 
@@ -236,15 +235,16 @@ static void hand_down(struct work *work, const struct place *place, struct layer
   looked_into &= axes > 0;
   if (looked_into)
     weigh(even_evidence(count, (double)box->exposure), evidence, axes, &even_share, shares);
-  if (count > 0 && share->chance > 0) {
+  if (share->chance > 0) {
     double density = count / (double)box->exposure * work->scale, kept = chance * even_share;
-    double squares = kept * density * density * (1 + 1 / count), size = 1;
+    double off = density - work->scale, size = 1;
+    double alike = count > 0 ? kept * density * density / count : 0;
+    double squares = kept * off * off + alike;
     for (int axis = 0; axis < AXES; ++axis) size *= place->node[axis]->size;
     share->density += (float)(kept * density);
     work->posterior.variance += squares * (double)box->exposure / work->scale;
     /* Cells of a box err alike: the mean over its views errs no less than each. */
     double views = (double)place->node[0]->size * place->node[2]->size; /* V, U: see order[] */
-    double alike = kept * density * density / count;
     work->posterior.view_variance += size * (squares + (views - 1) * alike);
   }
   for (int n = 0; n < axes; ++n)

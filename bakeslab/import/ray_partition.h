@@ -21,7 +21,6 @@ struct ray_cells {
 
 /* Of one pass: sums over cells, of the density and of what it may be about it. */
 struct ray_posterior {
-  double square;        /* exposure times squared density */
   double variance;      /* exposure times the density's variance */
   double view_variance; /* the density's variance, that of a box times its views: as if cells erred
                            independently, but sums over views by as much */
