@@ -28,20 +28,23 @@ static void set(struct photometry *lamp, enum photometry_shape shape, int axis, 
 static void set_round_above(bool old, double width, double length, double height,
                             struct photometry *lamp) {
   double w = fabs(width), l = fabs(length), h = fabs(height);
-  if (width == 0 && length == 0)
+  if (width == 0 && length == 0) {
     set(lamp, PHOTOMETRY_ELLIPSOID, 0, h, h, h);
-  else if (length == 0)
-    old         ? set(lamp, PHOTOMETRY_ELLIPSOID, 0, w, h, w)
-    : width < 0 ? set(lamp, PHOTOMETRY_CYLINDER, 0, 0, h, w)
-                : set(lamp, PHOTOMETRY_CYLINDER, 2, h, h, w);
-  else if (width == 0)
-    old &&length < 0 ? set(lamp, PHOTOMETRY_ELLIPSOID, 0, l, h, l)
-    : length < 0     ? set(lamp, PHOTOMETRY_CYLINDER, 2, l, h, 0)
-                     : set(lamp, PHOTOMETRY_CYLINDER, 0, l, h, h);
-  else if (old || (width < 0) == (length < 0))
+  } else if (length == 0) {
+    if (width > 0)
+      set(lamp, PHOTOMETRY_CYLINDER, 2, h, h, w);
+    else
+      set(lamp, old ? PHOTOMETRY_ELLIPSOID : PHOTOMETRY_CYLINDER, 0, old ? w : 0, h, w);
+  } else if (width == 0) {
+    if (length > 0)
+      set(lamp, PHOTOMETRY_CYLINDER, 0, l, h, h);
+    else
+      set(lamp, old ? PHOTOMETRY_ELLIPSOID : PHOTOMETRY_CYLINDER, 2, l, h, old ? l : 0);
+  } else if (old || (width < 0) == (length < 0)) {
     set(lamp, PHOTOMETRY_ELLIPSOID, 0, l, h, w);
-  else
+  } else {
     set(lamp, PHOTOMETRY_CYLINDER, width < 0 ? 0 : 2, l, h, w);
+  }
 }
 
 enum result ies_opening(int year, double metres, double width, double length, double height,

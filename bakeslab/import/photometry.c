@@ -34,7 +34,7 @@ static void angles(const struct photometry *lamp, const double d[3], double *pla
     return;
   case PHOTOMETRY_B:
     *plane = atan2(-z, hypot(x, y)) * degrees;
-    *row = atan2(x, -y) * degrees;
+    *row = x == 0 && y == 0 ? 0 : atan2(x, -y) * degrees; /* at the pole all are one */
     return;
   case PHOTOMETRY_A:
     *plane = atan2(-z, x) * degrees;

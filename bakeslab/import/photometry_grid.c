@@ -25,7 +25,7 @@ enum {
 
 static const double round_cell = 0.2;
 static const double most_factor = 0.05;
-static const double still_better = 0.9; /* of the error before, to go on */
+static const double still_better = 0.95; /* of the error before, to go on */
 
 void photometry_grid_free(struct photometry_grid *grid) {
   for (int n = 0; n < BODY_FACES; ++n) {

@@ -89,7 +89,7 @@ enum result photometry_text_numbers(struct photometry_text *text, const char *wh
   if (count > ((size_t)(text->end - text->at) + 1) / 2)
     return result_fail(error, RESULT_BAD,
                        "line %d: %zu numbers should follow (%s), more than the "
-                       "file holds",
+                       "file holds: it is cut off",
                        text->line, count, what);
   for (size_t k = 0; k < count; ++k) {
     enum result result = photometry_text_number(text, what, &numbers[k], error);
