@@ -26,6 +26,7 @@ struct import_wish {
   double lumens;    /* photometric files: rescales the flux */
   double kelvin;    /* photometric files: colour, of a black body */
   int turn;         /* photometric files: turns the distribution about the vertical, degrees */
+  bool narrow;      /* photometric files: small windows, for an include */
   struct import_aperture apertures[IMPORT_APERTURES]; /* ray files, pictures: pages */
   int aperture_count;
   bool box;               /* ray files: pages are the faces of the box of the rays' origins */

@@ -128,7 +128,7 @@ static enum result make_slabs(const struct import_wish *wish, struct photometry 
   double tolerance = wish->tolerance > 0 ? wish->tolerance : default_tolerance;
   double white[3] = {1, 1, 1};
   if (wish->kelvin > 0) kelvin_colour(wish->kelvin, white);
-  enum result result = photometry_pages(lamp, tolerance, &pages, error);
+  enum result result = photometry_pages(lamp, tolerance, wish->narrow, &pages, error);
   if (result == RESULT_OK)
     result = photometry_grid(lamp, &pages, wish->st, tolerance, &grid, error);
   if (result == RESULT_OK)

@@ -17,15 +17,16 @@ enum {
   LEAST = 24,       /* cells along the widest window, to begin with */
   MOST_FIRST = 300, /* of round bodies, to begin with */
   MOST = 1024,
-  MOST_SAMPLES = 1 << 23, /* of all pages, with as few positions as may be */
-  MOST_POINTS = 24,       /* of a cell, along each axis */
-  SPHERE = 4000,          /* directions of the measure of error */
-  TABLE = 4000            /* and of the table's own, at most */
+  MOST_SAMPLES = 1 << 23,  /* of all pages, with as few positions as may be */
+  CHEAP_SAMPLES = 1 << 20, /* and where finer cells do not help: tables may jump */
+  MOST_POINTS = 24,        /* of a cell, along each axis */
+  SPHERE = 4000,           /* directions of the measure of error */
+  TABLE = 4000             /* and of the table's own, at most */
 };
 
 static const double round_cell = 0.2;
 static const double most_factor = 0.05;
-static const double still_better = 0.95; /* of the error before, to go on */
+static const double still_better = 0.9; /* of the error before, for cells that are not cheap */
 
 void photometry_grid_free(struct photometry_grid *grid) {
   for (int n = 0; n < BODY_FACES; ++n) {
@@ -246,7 +247,8 @@ static void count_cells(const struct photometry_pages *pages, int page, int acro
 /* The pages that are off by most get finer cells, half as many again; false where that would be
  * too many. */
 static bool refine(const struct photometry_pages *pages, const double own[BODY_FACES],
-                   double tolerance, int across[BODY_FACES], bool changed[BODY_FACES]) {
+                   double tolerance, double most_samples, int across[BODY_FACES],
+                   bool changed[BODY_FACES]) {
   int least = photometry_is_even(&pages->body) ? PHOTOMETRY_LEAST_EVEN : PHOTOMETRY_LEAST_ROUND;
   double samples = 0;
   double most = 0;
@@ -261,7 +263,7 @@ static bool refine(const struct photometry_pages *pages, const double own[BODY_F
     photometry_positions(pages, p, least, uv);
     samples += (double)uv[0] * uv[1] * n[0] * n[1];
   }
-  return any && samples <= MOST_SAMPLES;
+  return any && samples <= most_samples;
 }
 
 /* The changed pages' cells, then what comes of all. */
@@ -280,14 +282,13 @@ static enum result take(const struct photometry *lamp, const struct photometry_p
   return result;
 }
 
-/* Whether the far field is right, or finer cells do not help: where the table jumps, and where
- * light lies beyond the windows. */
+/* Whether the far field is right, or as right as cells make it: light may lie beyond the windows.
+ */
 static bool is_done(const struct photometry_grid_error *error, const double own[BODY_FACES],
-                    int pages, double tolerance, double before) {
+                    int pages, double tolerance) {
   double most = 0;
   for (int p = 0; p < pages; ++p) most = fmax(most, own[p]);
-  return most <= tolerance || (error->most95 <= tolerance && (error->most <= 2.5 * tolerance ||
-                                                              error->most > still_better * before));
+  return most <= tolerance || (error->most95 <= tolerance && error->most <= 2.5 * tolerance);
 }
 
 /* Where positions differ, their directions tell near by what is seen: cells of round bodies have
@@ -309,8 +310,10 @@ enum result photometry_grid(const struct photometry *lamp, const struct photomet
   for (int p = 0; p < pages->count; ++p) across[p] = first_across(pages, p), changed[p] = true;
   enum result result = take(lamp, pages, across, st, changed, grid, own, error);
   while (result == RESULT_OK && !(st[0] > 0) &&
-         !is_done(&grid->error, own, pages->count, tolerance, before) &&
-         refine(pages, own, tolerance, across, changed)) {
+         !is_done(&grid->error, own, pages->count, tolerance)) {
+    bool better = grid->error.most95 > tolerance || grid->error.most <= still_better * before;
+    if (!refine(pages, own, tolerance, better ? MOST_SAMPLES : CHEAP_SAMPLES, across, changed))
+      break;
     before = grid->error.most;
     result = take(lamp, pages, across, st, changed, grid, own, error);
   }

@@ -21,7 +21,7 @@ enum {
  * ones, that lose it only along themselves, more); where a neighbour takes it over, part of the
  * flux, or of the area in each direction: so much brighter the neighbour becomes there. */
 static const double cut_flux = 0.0005, cut_peak = 0.015, cut_flat = 0.04, cut_shared = 0.0002,
-                    cut_share = 0.015;
+                    cut_narrow = 0.002, cut_share = 0.015;
 /* Slopes beyond which a neighbour may go on: it faces such directions more than the page does. */
 static const double least_shared = 2;
 /* Thin bodies' windows end here at the latest: their sides are bright beyond. */
@@ -124,7 +124,8 @@ static int cut_end(const struct survey *survey, const struct profile *profile, i
     sum += profile->flux[axis][bin];
     if (others && (profile->share[axis][bin] <= cut_share || (pages->thick && slope >= most_thin)))
       continue;
-    if (sum > (others ? cut_shared : cut_flux) * survey->flux) return n;
+    if (sum > (!others ? cut_flux : pages->narrow ? cut_narrow : cut_shared) * survey->flux)
+      return n;
     if (!others && profile->peak[axis][bin] > peak_cut * survey->peak) return n;
   }
   return BINS - 2;
@@ -157,6 +158,12 @@ static void cut(const struct survey *survey, const struct photometry_pages *page
   }
 }
 
+static int count_faces(const struct photometry_body *body) {
+  int count = 0;
+  for (int f = 0; f < BODY_FACES; ++f) count += body->face[f].size[0] > 0;
+  return count;
+}
+
 static bool loses(const struct survey *survey, const struct photometry_body *body) {
   double flux = 0, held = 0;
   for (int f = 0; f < BODY_FACES; ++f) {
@@ -168,12 +175,6 @@ static bool loses(const struct survey *survey, const struct photometry_body *bod
     if (profile->beyond_peak > lost_peak * survey->peak) return true;
   }
   return flux > lost_flux * survey->flux || held < (1 - lost_flux) * survey->flux;
-}
-
-static int count_faces(const struct photometry_body *body) {
-  int count = 0;
-  for (int f = 0; f < BODY_FACES; ++f) count += body->face[f].size[0] > 0;
-  return count;
 }
 
 static void choose(const struct survey *survey, double tolerance, struct photometry_pages *pages) {
@@ -194,15 +195,17 @@ static void choose(const struct survey *survey, double tolerance, struct photome
   }
 }
 
-enum result photometry_pages(const struct photometry *lamp, double tolerance,
+enum result photometry_pages(const struct photometry *lamp, double tolerance, bool narrow,
                              struct photometry_pages *pages, struct error *error) {
   struct survey *survey = malloc(sizeof *survey);
   if (!survey) return result_no_memory(error);
   *pages = (struct photometry_pages){0};
   photometry_body(lamp, false, &pages->body);
   look(lamp, &pages->body, survey);
-  pages->shared = loses(survey, &pages->body);
-  if (pages->shared && photometry_is_thin(&pages->body)) {
+  bool lost = loses(survey, &pages->body);
+  pages->narrow = narrow && count_faces(&pages->body) > 2;
+  pages->shared = lost || pages->narrow;
+  if (lost && photometry_is_thin(&pages->body)) {
     pages->thick = true;
     photometry_body(lamp, true, &pages->body);
     look(lamp, &pages->body, survey);

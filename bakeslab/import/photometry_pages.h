@@ -25,13 +25,16 @@ struct photometry_pages {
   struct photometry_body body;
   int count;
   struct photometry_page page[BODY_FACES]; /* in the faces' order */
+  bool narrow;                             /* windows, shared by all faces */
   bool shared;                             /* between neighbours, near the ends of windows */
   bool thick;                              /* the opening is thicker than the file says */
 };
 
-/* Chooses the pages. Flat openings get sides where too much of their light would run along them to
- * be held by a window. Refuses lamps without light. */
-enum result photometry_pages(const struct photometry *lamp, double tolerance,
+/* Chooses the pages. `narrow` asks for small windows, as POV-Ray's sheets want them
+ * (include/sheet/): the far field stays, light near by is up to a tenth off. Flat openings get
+ * sides where too much of their light would run along them to be held by a window. Refuses lamps
+ * without light. */
+enum result photometry_pages(const struct photometry *lamp, double tolerance, bool narrow,
                              struct photometry_pages *pages, struct error *error);
 
 /* Positions along both edges of a page: `along` of them on the longer, and as dense on the other.

@@ -25,6 +25,8 @@ static double samples_of(const struct photometry_pages *pages, const struct phot
   return count;
 }
 
+static const double least_sheet = 0.0012; /* m */
+
 /* How many positions along the longer edge of a page. */
 static int choose_along(const struct photometry *lamp, const struct photometry_pages *pages,
                         const struct photometry_grid *grid) {
@@ -33,6 +35,19 @@ static int choose_along(const struct photometry *lamp, const struct photometry_p
   if (lamp->shape == PHOTOMETRY_POINT) return 1;
   while (along > least && samples_of(pages, grid, along) > SAMPLES) --along;
   return along;
+}
+
+/* POV-Ray lights a scene through a sheet as far above a page as its positions are apart, over the
+ * range of its slopes; at Scale 1 it must be a millimetre or more (include/sheet/). Where positions
+ * are alike, fewer are as exact elsewhere. */
+static void spread(const struct photometry_pages *pages, int page, int uv[2]) {
+  const double *window = pages->page[page].window;
+  const double *size = pages->body.face[pages->page[page].face].size;
+  int least = pages->body.shape == PHOTOMETRY_BOX ? 1 : PHOTOMETRY_LEAST_ROUND;
+  for (int axis = 0; axis < 2; ++axis) {
+    double most = size[axis] / (least_sheet * (window[2 * axis + 1] - window[2 * axis]));
+    if (uv[axis] > least) uv[axis] = (int)fmax(least, fmin(uv[axis], floor(most)));
+  }
 }
 
 /* Adds to each of `count` cells along a page the part of [from, to] that lies in it, over its
@@ -119,7 +134,10 @@ enum result photometry_slabs(const struct photometry *lamp, const struct photome
   for (int p = 0; p < pages->count && result == RESULT_OK; ++p) {
     const struct photometry_cells *cells = &grid->page[p];
     int own[2] = {uv[0], uv[1]};
-    if (!(uv[0] > 0)) photometry_positions(pages, p, along, own);
+    if (!(uv[0] > 0)) {
+      photometry_positions(pages, p, along, own);
+      spread(pages, p, own);
+    }
     made[p] = geometry(pages, p, cells, own);
     result = slab_check(&made[p], error);
     if (result == RESULT_OK) result = slab_alloc(&made[p], error);

@@ -20,7 +20,7 @@ enum result include_source_load(const char *path, const char *command, struct wa
   *source = (struct include_source){0};
   const struct import_kind *kind = import_kind_of(path);
   if (!kind) return slab_file_load_all(path, &source->light.slabs, &source->light.count, error);
-  const struct import_wish wish = {.files = &path, .file_count = 1, .notes = notes};
+  const struct import_wish wish = {.files = &path, .file_count = 1, .narrow = true, .notes = notes};
   enum result result = import_files(&wish, command, &source->light, error);
   if (result == RESULT_OK && kind->family == IMPORT_PHOTOMETRIC)
     result = load_table(path, source, error);
