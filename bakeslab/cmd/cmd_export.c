@@ -17,6 +17,9 @@ static const char doc[] =
     "These make a file, which holds the far field alone; what that loses is told:\n"
     "  ies       IES LM-63-2002 (.ies): absolute, type C, with the size of the opening\n"
     "  ldt       EULUMDAT (.ldt)\n"
+    "And these a file of rays, drawn by their luminance:\n"
+    "  tm25ray   IES TM-25 (.tm25ray)\n"
+    "  rays      text (.txt): `x y z dx dy dz flux' a line, in metres\n"
     "\n"
     "A folder appears whole or not at all. One that is there is refused; --force replaces it as a "
     "whole, if bakeslab export made it.\n"
@@ -31,7 +34,8 @@ static const char doc[] =
     "  bakeslab export lamp.tif -o lamp_radiance --as radiance --tolerance 0.05 \\\n"
     "    --force\n"
     "  bakeslab export lamp.tif -o lamp.ies\n"
-    "  bakeslab export lamp.tif -o lamp.ldt --tolerance 0.02";
+    "  bakeslab export lamp.tif -o lamp.ldt --tolerance 0.02\n"
+    "  bakeslab export lamp.tif -o lamp.tm25ray --rays 50000";
 
 struct arguments {
   const char *slab, *output, *as;
@@ -61,6 +65,8 @@ static const struct argp_option options[] = {
      "cycles: make NAME.blend, too, with the Blender that BLENDER in the environment names, or is "
      "installed, or with python3 and its module bpy",
      2},
+    {"rays", KEY(wish.rays), "N", 0, "tm25ray, rays: how many (default 100000)", 2},
+    {"seed", KEY(wish.seed), "N", 0, "tm25ray, rays: other rays for another number (default 1)", 2},
     {0}};
 
 static const struct value values[] = {
@@ -70,6 +76,8 @@ static const struct value values[] = {
     {'n', VALUE_TEXT, ARGUMENT(wish.name), 0, 0},
     {KEY(wish.tolerance), VALUE_POSITIVE, ARGUMENT(wish.tolerance), 0, 0},
     {KEY(wish.blend), VALUE_FLAG, ARGUMENT(wish.blend), 0, 0},
+    {KEY(wish.rays), VALUE_WHOLE, ARGUMENT(wish.rays), 1, 1e9},
+    {KEY(wish.seed), VALUE_WHOLE, ARGUMENT(wish.seed), 0, 1e9},
     {KEY(wish.polygons), VALUE_SIZE, ARGUMENT(wish.polygons), 0, 0},
     {0}};
 
@@ -139,6 +147,6 @@ static enum result run(void *input, struct error *error) {
 int cmd_export(int argc, char **argv) {
   static const struct argp argp = {
       options, parse_option, "SLAB -o OUT [--as KIND]", doc, cli_options, NULL, NULL};
-  struct arguments arguments = {.wish = {.tolerance = 0.01}};
+  struct arguments arguments = {.wish = {.tolerance = 0.01, .rays = 100000, .seed = 1}};
   return cli_run(&argp, argc, argv, run, &arguments);
 }

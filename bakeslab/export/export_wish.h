@@ -14,6 +14,8 @@ struct export_wish {
   double tolerance;       /* relative error of what the kind approximates */
   int polygons[2];        /* of an aperture, along u and v; 0: as many as the tolerance asks */
   bool blend;             /* cycles: make NAME.blend, too */
+  int rays;               /* of a ray file */
+  int seed;               /* of what is drawn at random */
   struct warnings *notes; /* what the user is told: what was chosen, what is lost */
 };
 

@@ -109,3 +109,26 @@ lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7
   BLENDER=/none/blender refuses 1 --blend -- export_it lamp.tif -o out --as cycles --blend
   [ ! -e dark ] && [ ! -e out ]
 }
+
+@test "ray files: so many rays, the flux exact, the same for the same seed, back within their noise" {
+  raw_slab lamp.tif '[2, 2, 3, 2]' 6 4 ', "name": "lamp", "radiance_unit": "cd/m2"' 44800000 44400000 44000000
+  run -0 export_it lamp.tif -o lamp.txt --rays 20000
+  [[ $output == *"20000 rays of "*" lm"* ]]
+  grep -v '^#' lamp.txt | awk -v flux="$(lumens lamp.tif)" '
+    { sum += $7; if ($1^2 > 0.01^2*101 || $2 != 0 || $3^2 > 0.01^2*101 || ($4/$5)^2 > 1 || ($6/$5)^2 > 1 || $5 >= 0) out = 1
+      d = $4^2 + $5^2 + $6^2 - 1; if (d^2 > 1e-12) out = 1 }
+    END { exit !(NR == 20000 && !out && (sum - flux)^2 < (1e-6*flux)^2) }'
+  cp lamp.txt first.txt
+  export_it lamp.tif -o lamp.txt --rays 20000 -q
+  diff -I '^#' first.txt lamp.txt
+  export_it lamp.tif -o lamp.txt --rays 20000 -q --seed 2
+  run -1 diff -q -I '^#' first.txt lamp.txt
+  export_it lamp.tif -o lamp.tm25ray --rays 20000 -q
+  [ "$(stat -c %s lamp.tm25ray)" -eq $((288 + 36000 + 28*20000)) ]
+  for file in lamp.txt lamp.tm25ray; do
+    "$BAKESLAB" import $file -o "$file.tif" -q --center 0,0,0 --u 0.2,0,0 --v 0,0,0.2 --normal 0,-1,0 --uv 2 --st 4
+    awk -v a="$(lumens lamp.tif)" -v b="$(lumens "$file.tif")" 'BEGIN { exit !(a > 0 && (a - b)^2 < (0.002*a)^2) }' ||
+      { echo "$file: $(lumens lamp.tif) $(lumens "$file.tif")"; false; }
+  done
+  refuses 2 --rays -- export_it lamp.tif -o lamp.txt --rays 0
+}
