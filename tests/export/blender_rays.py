@@ -28,7 +28,8 @@ scene = bpy.context.scene
 scene.render.engine = 'CYCLES'
 scene.cycles.samples, scene.cycles.seed = 1, 1
 scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
-scene.cycles.pixel_filter_type, scene.cycles.filter_width = 'BOX', .01  # rays in pixels' middles
+# A single sample is in its pixel's middle, but for the filter.
+scene.cycles.pixel_filter_type, scene.cycles.filter_width = 'BLACKMAN_HARRIS', .01
 scene.render.resolution_x = scene.render.resolution_y = SIDE
 scene.render.image_settings.file_format = 'OPEN_EXR'
 scene.render.image_settings.color_depth = '32'
