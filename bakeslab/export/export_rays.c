@@ -66,8 +66,6 @@ static void put_tm25(const struct ray_draw *draw, const struct slab *slab,
   for (uint64_t k = 0; k < (uint64_t)wish->rays; ++k) {
     double ray[7];
     ray_draw_ray(draw, k, ray);
-    ray[2] = -ray[2]; /* right-handed */
-    ray[5] = -ray[5];
     for (int n = 0; n < 7; ++n) put_float(n < 3 ? 1000 * ray[n] : ray[n], out);
   }
 }

@@ -1,9 +1,8 @@
 /* export_rays.h - a lamp as a ray file: rays drawn by their luminance, whose
  * fluxes sum up to the slab's.
  *   rays     text: `x y z dx dy dz flux` a line, metres, in lamp space
- *   tm25ray  IES TM-25-13, little-endian, millimetres, right-handed: (x, y, -z); one flux: luminous
- * for cd/m2, else radiant
- */
+ *   tm25ray  IES TM-25-13, little-endian, millimetres, in lamp space, as import reads it; one
+ *            flux: luminous for cd/m2, else radiant */
 #ifndef EXPORT_RAYS_H
 #define EXPORT_RAYS_H
 
