@@ -280,12 +280,14 @@ static enum result measure(const struct lamp *lamp, struct far_field *field, str
   return find_loss(lamp, field, error);
 }
 
-/* Halves the steps until they are good enough; those of planes or angles alone where the others
- * err less than half as much. */
+/* Halves the steps until they are good enough, or gain little: where light ends at an edge, the
+ * error falls by the root of the step at best. Those of planes or angles alone where the others err
+ * less than half as much. */
 static enum result find_grid(const struct lamp *lamp, double tolerance, struct far_field *field,
                              struct error *error) {
+  static const double gains_little = 0.65;
   int halvings[2] = {0, 0};
-  for (;;) {
+  for (double before = INFINITY;; before = field->error) {
     double apart[2];
     enum result result = make_grid(lamp, halvings, field, error);
     if (result != RESULT_OK) return result;
@@ -295,7 +297,8 @@ static enum result find_grid(const struct lamp *lamp, double tolerance, struct f
                 fabs(field->lumens - field->flux) <= tolerance / 5 * fabs(field->flux);
     bool finer[2];
     for (int k = 0; k < 2; ++k) finer[k] = halvings[k] < FINEST && apart[k] >= apart[1 - k] / 4;
-    if (good || work > most_work || !(finer[0] || finer[1])) return RESULT_OK;
+    bool stuck = halvings[0] + halvings[1] > FINEST && field->error > gains_little * before;
+    if (good || stuck || work > most_work || !(finer[0] || finer[1])) return RESULT_OK;
     for (int k = 0; k < 2; ++k) halvings[k] += finer[k];
   }
 }

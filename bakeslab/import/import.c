@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/sdl.h"
-#include "import/import_photometry.h"
-#include "import/import_pictures.h"
-#include "import/import_provenance.h"
-#include "import/import_rays.h"
+#include "import/kind/import_provenance.h"
+#include "import/photometric/import_photometry.h"
+#include "import/pictures/import_pictures.h"
+#include "import/rays/import_rays.h"
 
 /* The first that knows a file has it: those that are sure by a magic word come first. */
 static const struct import_kind *const kinds[] = {

@@ -3,7 +3,7 @@
 #ifndef IMPORT_H
 #define IMPORT_H
 
-#include "import/import_kind.h"
+#include "import/kind/import_kind.h"
 
 /* The kinds that are known by their content, as words for people. */
 #define IMPORT_KINDS                                                                               \

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "import/ray_estimate.h"
+#include "import/rays/ray_estimate.h"
 #include "oracle/known_rays.h"
 
 struct sums {

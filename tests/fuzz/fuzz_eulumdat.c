@@ -1,5 +1,5 @@
 /* fuzz_eulumdat.c - EULUMDAT files. */
-#include "import/eulumdat.h"
+#include "import/photometric/eulumdat.h"
 
 #include "fuzz_photometry.h"
 

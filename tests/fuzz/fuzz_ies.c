@@ -1,5 +1,5 @@
 /* fuzz_ies.c - IES LM-63 files. */
-#include "import/ies.h"
+#include "import/photometric/ies.h"
 
 #include "fuzz_photometry.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "import/photometry.h"
+#include "import/photometric/photometry.h"
 
 static void fuzz_angles(const double *angles, int count, double low, double high) {
   fuzz_check(count >= 1 && count <= 2 * PHOTOMETRY_MOST_ANGLES + 1);

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "import/ray_lay.h"
+#include "import/rays/ray_lay.h"
 
 enum { FUZZ_RAYS = 64 }; /* read at a time */
 

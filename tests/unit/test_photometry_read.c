@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "import/eulumdat.h"
-#include "import/ies.h"
+#include "import/photometric/eulumdat.h"
+#include "import/photometric/ies.h"
 #include "testing.h"
 
 static struct warnings notes;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "helpers.h"
-#include "import/posed_rays.h"
+#include "import/pictures/posed_rays.h"
 
 #define MATRIX "[[1, 0, 0, 0.5], [0, 0, -1, -3], [0, 1, 0, 0.25], [0, 0, 0, 1]]"
 

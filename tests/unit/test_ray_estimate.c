@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/ray_estimate.h"
-#include "import/ray_etendue.h"
-#include "import/ray_held_out.h"
+#include "import/rays/ray_estimate.h"
+#include "import/rays/ray_etendue.h"
+#include "import/rays/ray_held_out.h"
 #include "oracle/known_rays.h"
 #include "oracle/random.h"
 #include "testing.h"

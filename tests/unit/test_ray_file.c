@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "helpers.h"
-#include "import/ray_file.h"
+#include "import/rays/ray_file.h"
 #include "made_rays.h"
 
 enum { MOST = 64 };

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "helpers.h"
-#include "import/ray_lay.h"
+#include "import/rays/ray_lay.h"
 #include "oracle/random.h"
 
 enum { RAYS = 20000, KEPT = 1000 };

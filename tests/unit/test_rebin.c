@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "helpers.h"
-#include "import/focus.h"
-#include "import/rebin_levels.h"
+#include "import/pictures/focus.h"
+#include "import/pictures/rebin_levels.h"
 #include "oracle/lookup.h"
 #include "oracle/random.h"
 

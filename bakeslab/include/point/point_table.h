@@ -9,7 +9,7 @@
 #ifndef POINT_TABLE_H
 #define POINT_TABLE_H
 
-#include "import/photometry.h"
+#include "import/photometric/photometry.h"
 
 struct point_table {
   double axes[3][3]; /* in lamp space: unit vectors */

@@ -1,0 +1,40 @@
+/* ray_estimate.h - from the rays that leave through one page to its samples, the mean radiance of
+ * each cell, with the error that is told.
+ *
+ * Rays come one at a time and are summed on the page's grid (ray_bins.h), so that memory does not
+ * grow with their number: some 270 bytes a sample while the samples are found. Fluxes and radiances
+ * are in the page's units: W and W/(sr m2), lm and cd/m2; lengths are in lamp units, as in slab.h.
+ */
+#ifndef RAY_ESTIMATE_H
+#define RAY_ESTIMATE_H
+
+#include "import/rays/ray_told.h"
+#include "slab/slab.h"
+
+struct ray_estimate; /* the rays of one page */
+
+/* For the geometry of `page` (slab.h; it is copied, and its samples are not read). With a
+ * tolerance > 0 the samples are the finest that may be chosen, else those that will be given.
+ * `coloured`: fluxes differ between red, green and blue. */
+enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance,
+                             struct ray_estimate **estimate, struct error *error);
+void ray_estimate_free(struct ray_estimate *estimate);
+
+/* Adds a ray through (a, b, s, t), as slab_ray gives it, that carries the flux rgb[3] (linear
+ * Rec. 709; where not coloured, rgb[1] is read alone). False, and nothing is added, where it passes
+ * outside the rectangle or the window, or where its luminance is not positive and finite. */
+bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES],
+                      const double rgb[3]);
+
+/* Luminous flux of all rays of the source, those that leave elsewhere included: which of them leave
+ * here is chance then, and counts in the error. Without it the flux through the page is exact. */
+void ray_estimate_whole(struct ray_estimate *estimate, double flux);
+
+/* The samples: fills slab->rgb of a new slab, which the caller frees, with the geometry of the page
+ * and no JSON but "samples_are". With a tolerance > 0, the fewest samples for which told->error is
+ * at most that, or those of the least error: halvings of the page's, down to 4 along an axis. No
+ * ray at all gives a dark slab, and errors of 0. */
+enum result ray_estimate_finish(struct ray_estimate *estimate, struct slab *slab,
+                                struct ray_estimate_told *told, struct error *error);
+
+#endif
