@@ -11,14 +11,11 @@
 #include "export/export_radiance.h"
 #include "export/export_rays.h"
 
-static const struct export_kind kinds[] = {{"radiance", NULL, export_radiance},
-                                           {"mitsuba", NULL, export_mitsuba},
-                                           {"cycles", NULL, export_cycles},
-                                           {"ies", ".ies", export_ies},
-                                           {"ldt", ".ldt", export_ldt},
-                                           {"tm25ray", ".tm25ray", export_tm25},
-                                           {"rays", ".txt", export_rays},
-                                           {0}};
+static const struct export_kind kinds[] = {
+    {"radiance", NULL, export_radiance}, {"mitsuba", NULL, export_mitsuba},
+    {"cycles", NULL, export_cycles},     {"ies", ".ies", export_ies},
+    {"ldt", ".ldt", export_ldt},         {"tm25ray", ".tm25ray", export_tm25},
+    {"rays", ".txt", export_rays},       {0}};
 
 enum { LONGEST_NAME = 63 }; /* what Blender's data blocks hold */
 

@@ -59,7 +59,7 @@ static void put_tm25(const struct ray_draw *draw, const struct slab *slab,
   for (int k = 0; k < TEXTS; ++k) {
     const char *text = k == 0 ? wish->name : k == 1 ? "bakeslab" : "";
     int length = 0;
-    for (; text[length] && length < TEXT - 1; ++length)
+    for (; length < TEXT - 1 && text[length]; ++length)
       put_word((unsigned char)text[length] < 128 ? (unsigned char)text[length] : '?', out);
     put_zeros(4 * (TEXT - length), out);
   }

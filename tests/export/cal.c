@@ -160,15 +160,18 @@ struct cal *cal_read(const char *path) {
   struct cal *cal = calloc(1, sizeof *cal);
   FILE *file = fopen(path, "r");
   size_t size = 0;
-  if (!cal || !file || getdelim(&cal->text, &size, 0, file) < 0) fail_msg("%s: not read", path);
+  if (!cal || !file || getdelim(&cal->text, &size, 0, file) < 0) {
+    fail_msg("%s: not read", path);
+    return NULL;
+  }
   fclose(file);
-  for (char *c = cal ? cal->text : NULL; c && *c; ++c)
-    if (*c == '{')
-      for (; *c && *c != '}'; ++c) *c = ' ';
-    else if (*c == '}')
-      *c = ' ';
-  for (char *c = cal->text; *c; ++c)
-    if (*c == '}') *c = ' ';
+  bool comment = false;
+  for (char *c = cal->text; *c; ++c) {
+    bool end = *c == '}';
+    comment |= *c == '{';
+    if (comment || end) *c = ' ';
+    comment &= !end;
+  }
   struct reader reader = {cal, cal->text, NULL, NULL};
   while (reader.at += strspn(reader.at, " \t\n"), *reader.at) {
     assert_true(cal->count < DEFINITIONS);

@@ -13,7 +13,7 @@ enum { FUZZ_RAYS = 64 }; /* read at a time */
 
 /* The pages that are laid for rays are slabs, and their places are on them. */
 static inline void fuzz_pages(const struct ray_look *look, bool box) {
-  struct ray_pages pages;
+  struct ray_pages pages = {0};
   struct error error = {""};
   double abst[SLAB_AXES];
   if ((box ? ray_lay_box : ray_lay_best)(look, &pages, &error) != RESULT_OK ||

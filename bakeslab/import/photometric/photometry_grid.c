@@ -93,8 +93,8 @@ static enum result take_cells(const struct photometry *lamp, const struct photom
   size_t count = (size_t)n[0] * (size_t)n[1];
   free(cells->mean);
   free(cells->share);
-  cells->mean = malloc(count * sizeof *cells->mean);
-  cells->share = malloc(count * sizeof *cells->share);
+  cells->mean = calloc(count, sizeof *cells->mean);
+  cells->share = calloc(count, sizeof *cells->share);
   if (!cells->mean || !cells->share) return result_no_memory(error);
   cells->n[0] = n[0];
   cells->n[1] = n[1];
