@@ -161,6 +161,7 @@ struct cal *cal_read(const char *path) {
   FILE *file = fopen(path, "r");
   size_t size = 0;
   if (!cal || !file || getdelim(&cal->text, &size, 0, file) < 0) {
+    free(cal);
     fail_msg("%s: not read", path);
     return NULL;
   }

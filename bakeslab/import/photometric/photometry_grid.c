@@ -305,7 +305,7 @@ enum result photometry_grid(const struct photometry *lamp, const struct photomet
                             struct error *error) {
   int across[BODY_FACES];
   bool changed[BODY_FACES];
-  double own[BODY_FACES], before = INFINITY;
+  double own[BODY_FACES] = {0}, before = INFINITY;
   *grid = (struct photometry_grid){0};
   for (int p = 0; p < pages->count; ++p) across[p] = first_across(pages, p), changed[p] = true;
   enum result result = take(lamp, pages, across, st, changed, grid, own, error);
