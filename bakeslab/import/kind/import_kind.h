@@ -42,7 +42,7 @@ struct import_wish {
 
 /* What provenance.import tells (import_provenance.h). */
 struct import_story {
-  char assumptions[400]; /* one sentence */
+  char assumptions[600]; /* one sentence */
   double flux_in;        /* lm or W: what the file holds */
   double flux_out;       /* what the slabs give, as slab_flux_metric */
   double error;          /* relative RMS error of the samples, weighted as they shine */

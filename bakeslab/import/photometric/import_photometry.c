@@ -103,8 +103,11 @@ static void tell(const struct import_wish *wish, const struct photometry *lamp,
   if (wish->turn) snprintf(turned, sizeof turned, ", turned by %d degrees", wish->turn);
   snprintf(story->assumptions, sizeof story->assumptions,
            "each point of the opening (%s) that faces a direction shines alike there: radiance is "
-           "intensity over the projected luminous area%s",
-           opening, turned);
+           "intensity over the projected luminous area%s%s",
+           opening, turned,
+           pages->narrow ? "; sides share light that runs along them, so that what is nearer than "
+                           "the opening is wide may be lit a tenth too much or too little"
+                         : "");
   snprintf(story->error_is, sizeof story->error_is,
            "RMS of the far field against the file's intensities in 4000 directions; 95 %% of them "
            "within %.2g %%, all within %.2g %% of the largest",
