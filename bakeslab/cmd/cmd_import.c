@@ -28,7 +28,10 @@ struct arguments {
 static const struct argp_option options[] = {
     {"output", 'o', "SLAB", 0,
      "The slab to write: .tif (LogLuv unless --precision is given) or .exr", 1},
-    {"precision", KEY(precision), CLI_PRECISIONS, 0, "Number format of the samples", 1},
+    {"precision", KEY(precision), CLI_PRECISIONS, 0,
+     "Number format of the samples: logluv is the default for TIFF, but float where samples are "
+     "negative; float for EXR",
+     1},
     {"uv", KEY(wish.uv), "NxM", 0, "Positions on each page", 2},
     {"st", KEY(wish.st), "NxM", 0, "Directions of each position", 2},
     {"tolerance", KEY(wish.tolerance), "T", 0,
@@ -83,7 +86,8 @@ static const char doc[] =
     "takes an array of pictures."
     "\v"
     "Photometric files (IES LM-63 of 1986 to 2019, EULUMDAT) give a slab in metres, in cd/m2. "
-    "Gamma 0 is -y, C0 is +x, C90 is +z.\n"
+    "Gamma 0 is -y, C0 is +x, C90 is +z; of type B, H = V = 0 is -y; of type A it is +x, and V = "
+    "90 is +y.\n"
     "\n"
     "Ray files give a slab in metres, in W/(sr m2) where their rays carry watts, in cd/m2 where "
     "they carry lumens: TM-25 (.tm25ray), Zemax binary source files (.dat, .sdf), and text, a "
@@ -203,6 +207,16 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
+/* LogLuv cannot hold samples that are negative: where nobody asked for it, they stay as they are.
+ */
+static enum slab_precision precision_for(const struct import_light *light,
+                                         enum slab_precision precision) {
+  for (int n = 0; n < light->count && precision == SLAB_PRECISION_DEFAULT; ++n)
+    for (size_t k = 0; k < 3 * slab_sample_count(&light->slabs[n]); ++k)
+      if (light->slabs[n].rgb[k] < 0) return SLAB_PRECISION_FLOAT;
+  return precision;
+}
+
 /* Of the units of length, in the order of --unit's words. */
 static const double metres[] = {1, 0.001, 0.01, 0.0254, 0.3048};
 
@@ -222,8 +236,8 @@ static enum result run(void *input, struct error *error) {
     result = slab_file_check_target(arguments->output, arguments->precision, error);
   if (result == RESULT_OK) result = import_files(wish, cli_command_line(), &light, error);
   if (result == RESULT_OK)
-    result =
-        slab_file_write(arguments->output, light.slabs, light.count, arguments->precision, error);
+    result = slab_file_write(arguments->output, light.slabs, light.count,
+                             precision_for(&light, arguments->precision), error);
   for (int k = 0; k < warnings_kept(&notes) && result == RESULT_OK; ++k)
     cli_note("%s: note: %s", wish->files[0], notes.lines[k]);
   import_free(&light);

@@ -55,8 +55,8 @@ static void check_negative(const struct photometry *lamp, struct warnings *notes
   for (size_t n = 0; n < count; ++n) negative += lamp->candela[n] < 0;
   if (negative > 0)
     warnings_add(notes,
-                 "%zu of its intensities are negative and stay so; LogLuv cannot hold "
-                 "them: --precision float does",
+                 "%zu of its intensities are negative and stay so, in samples as float, since "
+                 "LogLuv cannot hold them",
                  negative);
 }
 
