@@ -19,7 +19,7 @@ PACKAGES_lamps := povray povray-includes jq
 PACKAGES_man  := help2man scdoc
 PACKAGES_bare := git debootstrap
 PACKAGES_test := $(PACKAGES_demo) $(PACKAGES_plot) $(PACKAGES_lamps) $(PACKAGES_man) libcmocka-dev libgmp-dev bats bubblewrap \
-  povray-examples libtiff-tools groff procps chromium xvfb xauth xdotool
+  povray-examples libtiff-tools groff procps chromium xvfb xauth xdotool python3-minimal
 PACKAGES_fuzz := clang libclang-rt-14-dev
 PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shellcheck
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))

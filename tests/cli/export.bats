@@ -89,6 +89,7 @@ lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7
 }
 
 @test "folders for Mitsuba and Blender: what is in them, and what they say" {
+  needs python3
   run -0 export_it lamp.tif -o mitsuba --as mitsuba
   [[ $output == *"lamp.tif: note: "*multijitter* ]]
   [ "$(ls mitsuba)" = $'README.md\nexample.xml\nlamp.exr\nlamp.json\nlamp.xml\nprovenance.json\nslab_emitter.py' ]
