@@ -58,9 +58,9 @@ static void put_tm25(const struct ray_draw *draw, const struct slab *slab,
   for (int k = 0; k < FLAGS; ++k) put_word(flags[k], out);
   for (int k = 0; k < TEXTS; ++k) {
     const char *text = k == 0 ? wish->name : k == 1 ? "bakeslab" : "";
-    int length = 0;
-    for (; length < TEXT - 1 && text[length]; ++length)
-      put_word((unsigned char)text[length] < 128 ? (unsigned char)text[length] : '?', out);
+    int length = (int)strnlen(text, TEXT - 1);
+    for (const char *at = text; at < text + length; ++at)
+      put_word((unsigned char)*at < 128 ? (unsigned char)*at : '?', out);
     put_zeros(4 * (TEXT - length), out);
   }
   for (uint64_t k = 0; k < (uint64_t)wish->rays; ++k) {

@@ -6,7 +6,7 @@ set -euo pipefail
 . "$(dirname "$0")/tradeoff.bash"
 
 # Beams of mirrors and lenses need finer slabs than soft light does: a bake for 5 % takes hours.
-declare -A errors=([desk_lamp]=0.5,0.2,0.1,0.05,0.02 [parabolic]=0.5,0.3,0.2 [torch]=0.5,0.3,0.2)
+declare -A errors=([desk_lamp]='0.5,0.2,0.1,0.05,0.02' [parabolic]='0.5,0.3,0.2' [torch]='0.5,0.3,0.2')
 
 # ways LAMP SCENE: the cheapest way to each error, from the lamp's script to the picture: words,
 # table and plots. What a lamp's bakes took is kept for the scenes that follow.
