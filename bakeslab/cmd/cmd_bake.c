@@ -44,19 +44,17 @@ static const struct argp_option options[] = {
     {"st", KEY(st), "NxM", 0, "directions at each position (default 64x64)", 1},
     {"precision", KEY(precision), CLI_PRECISIONS, 0, "number format of the samples", 1},
     {"rays", KEY(rays), "K", 0,
-     "rays a sample, on average: 1 or an even number (default: as --noise asks for, at most 8, or "
-     "16 with --tolerance). A "
-     "sample is the mean over its 4D cell. With more than 4, a first ray looks for light "
-     "everywhere: a beam as wide as a sample is found, of a thinner one the part that it fills. "
-     "Others follow around what was found, and most where these are noisy",
+     "rays a sample, on average: 1 or an even number (default: as --noise asks for, at most 8, "
+     "or 16 with --tolerance). A sample is the mean over its 4D cell. With more than 4, a first "
+     "ray looks for light everywhere: a beam as wide as a sample is found, of a thinner one the "
+     "part that it fills. Others follow around what was found, and most where these are noisy",
      2},
     {"rays-max", KEY(rays_max), "K", 0,
      "the most rays for a sample (default 4 x --rays, or 16 x where --noise decides)", 2},
     {"noise", KEY(noise), "T", 0,
      "shoot no more rays than it takes for noise of T in irradiance at --for-distance (relative "
      "RMS; default: a quarter of the error by the number of samples, or a third of --tolerance, "
-     "and "
-     "a flux known to 0.4 %). With --rays alone, all of those are shot",
+     "and a flux known to 0.4 %). With --rays alone, all of those are shot",
      2},
     {"uniform", KEY(uniform), 0, 0,
      "the same number of rays for all samples, at the same places of their cells", 2},

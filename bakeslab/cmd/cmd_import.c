@@ -212,8 +212,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 static enum slab_precision precision_for(const struct import_light *light,
                                          enum slab_precision precision) {
   for (int n = 0; n < light->count && precision == SLAB_PRECISION_DEFAULT; ++n)
-    for (size_t k = 0; k < 3 * slab_sample_count(&light->slabs[n]); ++k)
-      if (light->slabs[n].rgb[k] < 0) return SLAB_PRECISION_FLOAT;
+    if (slab_negative(&light->slabs[n]) < 3 * slab_sample_count(&light->slabs[n]))
+      return SLAB_PRECISION_FLOAT;
   return precision;
 }
 

@@ -2,12 +2,11 @@
 
 #include "base/files.h"
 #include "export/cycles_blend.h"
-#include "export/export_folder.h"
 #include "export/export_frame.h"
 #include "export/export_pages.h"
 #include "export/export_provenance.h"
+#include "export/export_text.h"
 #include "file/json_text.h"
-#include "include/text/include_fill.h"
 
 extern const char export_canned_lights[], export_cycles_example[], export_cycles_md[];
 
@@ -18,23 +17,14 @@ static enum result write_texts(const struct slab *slabs, int count, const struct
                                const char *folder, struct error *error) {
   const struct slab *first = export_pages_first(slabs, count);
   const struct export_scene scene = export_scene_of(first, export_z_up);
-  const struct {
-    const char *template, *stem, *ending;
-  } texts[] = {{export_cycles_example, "example", ".py"}, {export_cycles_md, "README", ".md"}};
+  const struct export_text texts[] = {
+      {export_cycles_example, "example", ".py"}, {export_cycles_md, "README", ".md"}, {0}};
   const struct include_value values[] = {
       {"floor", .numbers = scene.floor},      {"eye", .numbers = scene.eye},
       {"target", .numbers = scene.target},    {"metres", .number = first->metres_per_unit},
       {"unit", .text = first->radiance_unit}, {"rays", .number = ray_error},
       {"blend", .number = wish->blend},       {0}};
-  enum result result = RESULT_OK;
-  for (size_t k = 0; k < sizeof texts / sizeof *texts && result == RESULT_OK; ++k) {
-    FILE *out = export_folder_open(folder, texts[k].stem, texts[k].ending, error);
-    if (!out) return RESULT_IO;
-    include_fill(texts[k].template, wish->name, values, out);
-    putc('\n', out);
-    result = export_folder_close(out, texts[k].stem, texts[k].ending, result, error);
-  }
-  return result;
+  return export_texts(folder, wish->name, texts, values, error);
 }
 
 static void tell(const struct slab *slabs, int count, const struct export_wish *wish) {

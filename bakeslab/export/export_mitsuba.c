@@ -1,12 +1,11 @@
 #include "export/export_mitsuba.h"
 
 #include "base/files.h"
-#include "export/export_folder.h"
 #include "export/export_frame.h"
 #include "export/export_pages.h"
 #include "export/export_provenance.h"
+#include "export/export_text.h"
 #include "file/json_text.h"
-#include "include/text/include_fill.h"
 
 extern const char export_slab_emitter[], export_mitsuba_xml[], export_mitsuba_example[],
     export_mitsuba_md[];
@@ -73,11 +72,10 @@ static void put_floor(const void *of, FILE *out) {
 static enum result write_texts(const struct slab *slabs, int count, const struct export_wish *wish,
                                const char *folder, struct error *error) {
   const struct lamp lamp = {slabs, count, wish->name};
-  const struct {
-    const char *template, *stem, *ending;
-  } texts[] = {{export_mitsuba_xml, wish->name, ".xml"},
-               {export_mitsuba_example, "example", ".xml"},
-               {export_mitsuba_md, "README", ".md"}};
+  const struct export_text texts[] = {{export_mitsuba_xml, wish->name, ".xml"},
+                                      {export_mitsuba_example, "example", ".xml"},
+                                      {export_mitsuba_md, "README", ".md"},
+                                      {0}};
   const struct slab *first = export_pages_first(slabs, count);
   const struct export_scene scene = export_scene_of(first, export_y_up);
   const struct include_value values[] = {{"shapes", .print = put_pages, .of = &lamp},
@@ -89,15 +87,7 @@ static enum result write_texts(const struct slab *slabs, int count, const struct
                                          {"unit", .text = first->radiance_unit},
                                          {"rays", .number = ray_error},
                                          {0}};
-  enum result result = RESULT_OK;
-  for (size_t k = 0; k < sizeof texts / sizeof *texts && result == RESULT_OK; ++k) {
-    FILE *out = export_folder_open(folder, texts[k].stem, texts[k].ending, error);
-    if (!out) return RESULT_IO;
-    include_fill(texts[k].template, wish->name, values, out);
-    putc('\n', out);
-    result = export_folder_close(out, texts[k].stem, texts[k].ending, result, error);
-  }
-  return result;
+  return export_texts(folder, wish->name, texts, values, error);
 }
 
 enum result export_mitsuba(const struct slab *slabs, int count, const struct export_wish *wish,

@@ -5,14 +5,13 @@
 #include <string.h>
 
 #include "base/sdl.h"
-#include "export/export_folder.h"
 #include "export/export_frame.h"
 #include "export/export_provenance.h"
+#include "export/export_text.h"
 #include "export/radiance_overlap.h"
 #include "export/radiance_page.h"
 #include "export/radiance_source.h"
 #include "file/json_text.h"
-#include "include/text/include_fill.h"
 #include "slab/plane.h"
 
 extern const char export_radiance_rad[], export_radiance_md[], export_radiance_example[];
@@ -39,10 +38,9 @@ struct lamp {
 };
 
 static enum result check_radiance(const struct slab *slab, int number, struct error *error) {
-  size_t values = 3 * slab_sample_count(slab), k = 0;
+  size_t k = slab_negative(slab);
   int at[SLAB_AXES];
-  while (k < values && !(slab->rgb[k] < 0)) ++k;
-  if (k == values) return RESULT_OK;
+  if (k == 3 * slab_sample_count(slab)) return RESULT_OK;
   slab_locate(slab, k / 3, at);
   return result_fail(error, RESULT_BAD,
                      "page %d: radiance %g of sample (%d, %d, %d, %d) is negative, which sources "
@@ -167,6 +165,11 @@ static void put_page(const struct page *page, FILE *out) {
   put_polygons(page, out);
 }
 
+static void put_pages(const void *of, FILE *out) {
+  const struct lamp *lamp = of;
+  for (int page = 0; page < lamp->count; ++page) put_page(&lamp->pages[page], out);
+}
+
 /* Lines of the error at each distance. */
 static void put_errors(const void *of, FILE *out) {
   const struct lamp *lamp = of;
@@ -181,11 +184,10 @@ static void put_errors(const void *of, FILE *out) {
 
 static enum result write_texts(const struct lamp *lamp, const char *folder, struct error *error) {
   const struct slab *first = lamp->pages[0].slab;
-  const struct {
-    const char *template, *stem, *ending;
-  } texts[] = {{export_radiance_rad, lamp->wish->name, ".rad"},
-               {export_radiance_md, "README", ".md"},
-               {export_radiance_example, "example", ".rad"}};
+  const struct export_text texts[] = {{export_radiance_rad, lamp->wish->name, ".rad"},
+                                      {export_radiance_md, "README", ".md"},
+                                      {export_radiance_example, "example", ".rad"},
+                                      {0}};
   const struct export_scene scene = export_scene_of(first, export_z_up);
   double view[3];
   for (int c = 0; c < 3; ++c) view[c] = scene.target[c] - scene.eye[c];
@@ -195,6 +197,7 @@ static enum result write_texts(const struct lamp *lamp, const char *folder, stru
       {"command", .text = lamp->wish->command, .write = sdl_comment},
       {"ds", .number = radiance_source_ds},
       {"errors", .print = put_errors, .of = lamp},
+      {"sources", .print = put_pages, .of = lamp},
       {"metres", .number = first->metres_per_unit},
       {"unit", .text = first->radiance_unit},
       {"photometric", .number = !strcmp(first->radiance_unit, "cd/m2")},
@@ -204,16 +207,7 @@ static enum result write_texts(const struct lamp *lamp, const char *folder, stru
       {"view", .numbers = view},
       {"up", .numbers = scene.up},
       {0}};
-  enum result result = RESULT_OK;
-  for (size_t k = 0; k < sizeof texts / sizeof *texts && result == RESULT_OK; ++k) {
-    FILE *out = export_folder_open(folder, texts[k].stem, texts[k].ending, error);
-    if (!out) return RESULT_IO;
-    include_fill(texts[k].template, lamp->wish->name, values, out);
-    putc('\n', out);
-    for (int page = 0; k == 0 && page < lamp->count; ++page) put_page(&lamp->pages[page], out);
-    result = export_folder_close(out, texts[k].stem, texts[k].ending, result, error);
-  }
-  return result;
+  return export_texts(folder, lamp->wish->name, texts, values, error);
 }
 
 static enum result record(const struct slab *slabs, int count, const struct lamp *lamp,

@@ -159,6 +159,12 @@ int slab_width(const struct slab *slab) {
   return slab->samples[SLAB_U] * slab->samples[SLAB_S];
 }
 
+size_t slab_negative(const struct slab *slab) {
+  size_t values = 3 * slab_sample_count(slab), n = 0;
+  while (n < values && !(slab->rgb[n] < 0)) ++n;
+  return n;
+}
+
 bool slab_is_lit(const struct slab *slab) {
   for (size_t n = 3 * slab_sample_count(slab); n > 0; --n)
     if (slab->rgb[n - 1] != 0) return true;

@@ -61,6 +61,9 @@ size_t slab_sample_count(const struct slab *slab);
 int slab_width(const struct slab *slab);  /* Nu * Ns */
 int slab_height(const struct slab *slab); /* Nv * Nt */
 
+/* The number in rgb[] of the first value that is negative; 3 * slab_sample_count: none is. */
+size_t slab_negative(const struct slab *slab);
+
 /* Whether any sample differs from 0. */
 bool slab_is_lit(const struct slab *slab);
 

@@ -138,6 +138,24 @@ bad() {
   bad flux.ldt 'have no luminous flux'
 }
 
+@test "angles that leave out a part of the directions are told" {
+  ies part.ies rows='10 45 90'
+  run -0 --separate-stderr "$BAKESLAB" import part.ies -o part.exr --uv 2 --st 8
+  [[ $stderr == *"part.ies: note: its vertical angles go from 10 to 90 degrees: beyond them it is dark"* ]]
+  ies whole.ies rows='90 135 180'
+  run -0 --separate-stderr "$BAKESLAB" import whole.ies -o whole.exr --uv 2 --st 8
+  [[ $stderr != *"beyond them"* ]]
+}
+
+@test "a zero byte is no blank, but behind the last line" {
+  ies zero.ies candela='100 7~0 10 100 60 0'
+  tr '~' '\0' <zero.ies >inside.ies
+  bad inside.ies 'line 8: ' '"7?0"'
+  ies good.ies
+  { cat good.ies && printf '\0\0\0'; } >behind.ies
+  run -0 "$BAKESLAB" import behind.ies -o out.tif --uv 2 --st 8
+}
+
 @test "negative intensities are kept and told; an include cannot have them" {
   ies negative.ies candela='100 -70 10 100 60 0'
   run -0 --separate-stderr "$BAKESLAB" import negative.ies -o negative.exr --precision float

@@ -60,6 +60,16 @@ static void check_negative(const struct photometry *lamp, struct warnings *notes
                  negative);
 }
 
+/* Tables of type C begin at 0 or 90 degrees and end at 90 or 180 (LM-63-2002); what
+ * another leaves out is dark. */
+static void check_range(const struct photometry *lamp, struct warnings *notes) {
+  double first = lamp->row[0], last = lamp->row[lamp->rows - 1];
+  bool whole = (first == 0 || first == 90) && (last == 90 || last == 180);
+  if (lamp->type == PHOTOMETRY_C && !whole)
+    warnings_add(notes, "its vertical angles go from %g to %g degrees: beyond them it is dark",
+                 first, last);
+}
+
 /* The opening in words, with what the file does not say of it. */
 static void describe_opening(const struct photometry *lamp, const struct photometry_pages *pages,
                              char *text, size_t room) {
@@ -179,6 +189,7 @@ static enum result read_slabs(const struct import_wish *wish, struct import_ligh
   lamp.turn = wish->turn / 90;
   check_length(&lamp, wish->notes);
   check_negative(&lamp, wish->notes);
+  check_range(&lamp, wish->notes);
   result = rescale(wish, &lamp, error);
   light->story.flux_in = photometry_flux(&lamp);
   if (result == RESULT_OK) result = make_slabs(wish, &lamp, light, error);

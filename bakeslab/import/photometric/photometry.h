@@ -3,12 +3,16 @@
  *
  * Frame: lamp space in metres, the opening's middle at the origin. Gamma 0 is -y (down), C0 is +x
  * and C90 is +z. Towards a unit vector (x, y, z) the angles of the types (LM-63-2002, section 3)
- * are C:  x = sin gamma cos C,   y = -cos gamma,      z = sin gamma sin C B:  x = cos H sin V, y =
- * -cos H cos V,    z = -sin H  (V turns about a horizontal axis) A:  x = cos V cos H,       y = sin
- * V,           z = -cos V sin H  (H turns about the vertical) so that H = V = 0 is down for B, the
- * horizontal C0 for A, and H grows clockwise. Intensity is candela of the whole luminaire: the
- * lamps' lumens, multipliers and ballast factors are in. It is bilinear in the two angles between
- * the table's, and 0 outside of them. */
+ * are
+ *
+ *   - C:  x = sin gamma cos C,  y = -cos gamma,     z = sin gamma sin C
+ *   - B:  x = cos H sin V,      y = -cos H cos V,   z = -sin H          (V about a horizontal axis)
+ *   - A:  x = cos V cos H,      y = sin V,          z = -cos V sin H    (H about the vertical)
+ *
+ * so that H = V = 0 is down for B, the horizontal C0 for A, and H grows clockwise.
+ *
+ * Intensity is candela of the whole luminaire: the lamps' lumens, multipliers and ballast factors
+ * are in. It is bilinear in the two angles between the table's, and 0 outside of them. */
 #ifndef PHOTOMETRY_H
 #define PHOTOMETRY_H
 

@@ -29,7 +29,7 @@ bool photometry_text_line(struct photometry_text *text, const char **line, size_
 
 /* Some files end with the 26 (hexadecimal) of CP/M, or have zeros behind the last line. */
 static bool is_blank(const struct photometry_text *text, char c) {
-  return c == ' ' || (c >= '\t' && c <= '\r') || c == 0x1a || c == 0 ||
+  return c == ' ' || (c >= '\t' && c <= '\r') || c == 0x1a || (c == 0 && text->end[-1] == 0) ||
          (c == ',' && !text->decimal_comma);
 }
 
@@ -43,7 +43,8 @@ static size_t next_word(struct photometry_text *text, char word[WORD]) {
   size_t length = 0;
   skip_blanks(text);
   while (text->at < text->end && !is_blank(text, *text->at)) {
-    if (length < WORD - 1) word[length] = *text->at == ',' ? '.' : *text->at;
+    char c = *text->at;
+    if (length < WORD - 1) word[length] = c == ',' ? '.' : c == 0 ? '?' : c;
     ++length;
     ++text->at;
   }

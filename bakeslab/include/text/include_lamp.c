@@ -17,10 +17,9 @@ double include_peak(const struct slab *slab) {
 }
 
 static enum result check_radiance(const struct slab *slab, int page, struct error *error) {
-  size_t values = 3 * slab_sample_count(slab), k = 0;
+  size_t k = slab_negative(slab);
   int at[SLAB_AXES];
-  while (k < values && !(slab->rgb[k] < 0)) ++k;
-  if (k == values) return RESULT_OK;
+  if (k == 3 * slab_sample_count(slab)) return RESULT_OK;
   slab_locate(slab, k / 3, at);
   return result_fail(error, RESULT_BAD,
                      "page %d: radiance %g of sample (%d, %d, %d, %d) is negative, which a filter "

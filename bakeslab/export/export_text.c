@@ -1,0 +1,16 @@
+#include "export/export_text.h"
+
+#include "export/export_folder.h"
+
+enum result export_texts(const char *folder, const char *name, const struct export_text *texts,
+                         const struct include_value *values, struct error *error) {
+  enum result result = RESULT_OK;
+  for (; texts->template && result == RESULT_OK; ++texts) {
+    FILE *out = export_folder_open(folder, texts->stem, texts->ending, error);
+    if (!out) return RESULT_IO;
+    include_fill(texts->template, name, values, out);
+    putc('\n', out);
+    result = export_folder_close(out, texts->stem, texts->ending, result, error);
+  }
+  return result;
+}

@@ -1,0 +1,16 @@
+/* export_text.h - the texts of an export's folder, by templates (include/text/include_fill.h). */
+#ifndef EXPORT_TEXT_H
+#define EXPORT_TEXT_H
+
+#include "base/result.h"
+#include "include/text/include_fill.h"
+
+struct export_text {
+  const char *template, *stem, *ending; /* the file is called STEM ENDING */
+};
+
+/* Writes them, all with the same values; `texts` end with one without a template. */
+enum result export_texts(const char *folder, const char *name, const struct export_text *texts,
+                         const struct include_value *values, struct error *error);
+
+#endif
