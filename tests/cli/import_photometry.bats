@@ -2,6 +2,7 @@
 # bakeslab import and include of photometric files that are bad, or odd: one line with file and
 # line, and nothing left behind.
 
+# shellcheck disable=SC2154 # run sets stderr
 load slab
 
 setup() { cd "$BATS_TEST_TMPDIR" || return; }
