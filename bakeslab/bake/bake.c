@@ -44,6 +44,7 @@ struct bake_state {
   struct lamp lamp;
   struct bake_store store;
   struct bake_rounds rounds;
+  struct bake_energy_bakes energy;
   struct effects effects;
   struct bake_origin origin;
 };
@@ -236,7 +237,8 @@ static enum result assess(const struct bake_work *work, struct bake_state *state
   }
   warn_of_resolution(work->options, report, &pages[0], &report->warnings);
   if (result == RESULT_OK)
-    result = bake_energy(work, &state->origin.noise, &state->origin.energy, report, error);
+    result = bake_energy(work, &state->origin.noise, &state->energy, &state->origin.energy, report,
+                         error);
   return result;
 }
 
@@ -338,16 +340,19 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   if (result == RESULT_OK) result = announce(&work, &state, report, error);
   /* Refused before it began, it leaves nothing that was not there. */
   bool refused = result == RESULT_BAD && state.store.fresh;
-  if (result == RESULT_OK && !options->dry_run)
-    result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   /* A shard leaves the slab to the run without --shard. */
   report->assembled = options->shards == 1 && !options->dry_run;
+  if (result == RESULT_OK && report->assembled)
+    result = bake_energy_start(&work, &state.energy, error);
+  if (result == RESULT_OK && !options->dry_run)
+    result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
   report->highlights = state.lamp.reads.highlights;
   /* Before the slab: with an old rule, make would take the new slab for up to date. */
   if (result == RESULT_OK && report->assembled && options->depend)
     result = lamp_depend(&state.lamp.reads, state.source.path, options->output, options->depend,
                          false, error);
   if (result == RESULT_OK && report->assembled) result = write_slab(&work, &state, report, error);
+  bake_energy_free(&state.energy);
   bake_store_close(&state.store, refused || (result == RESULT_OK && report->assembled));
   bake_rounds_free(&state.rounds);
   free(state.origin.housing);

@@ -7,7 +7,8 @@
  *    and wider rectangles in the same planes, with the sides of the box around all pages that have
  *    no page. A ray that passes through no page is missed; the last rectangle that it passes counts
  *    it, or else such a side, or else the last wider one.
- * 3. After the bake: the flux of its pages, over that of the sources.
+ * Both run beside the bake.
+ * 3. After it: the flux of its pages, over that of the sources.
  *
  * The projected solid angle of a rectangle of slopes, seen from its corner, is in closed form that
  * of Lambert's formula for a rectangle. */
@@ -18,8 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bake/bake_planes.h"
-#include "probe/probe_bake.h"
 #include "slab/flux_box.h"
 #include "slab/plane.h"
 
@@ -36,20 +35,16 @@ static double luminance(const double rgb[3]) {
 
 /* ---- 1. Without bulbs ---- */
 
-static enum result probe_dark(const struct bake_work *work, struct bake_energy *energy,
-                              struct bake_report *report, struct error *error) {
+static enum result start_dark(const struct bake_work *work, struct bake_energy_bakes *bakes,
+                              struct error *error) {
   static const int samples[SLAB_AXES] = {DARK_POSITIONS, DARK_POSITIONS, DARK_DIRECTIONS,
                                          DARK_DIRECTIONS};
   struct bake_work dark = *work;
   struct effects effects = *work->look.effects;
-  struct probe_bake bake = {0};
   if (!work->lamp->bulbs) return RESULT_OK;
   effects.setting[CAUSTICS] = 0; /* there is nothing to shoot photons */
   dark.look.dark = true;
-  enum result result = probe_bake(&dark, work->slabs, &effects, samples, 1, &bake, report, error);
-  if (result == RESULT_OK) result = flux_box_lamp(bake.pages, bake.count, energy->dark, error);
-  probe_bake_free(&bake);
-  return result;
+  return probe_bake_start(&dark, work->slabs, &effects, samples, 1, &bakes->dark, error);
 }
 
 /* ---- 2. Around the pages ---- */
@@ -147,24 +142,37 @@ static void add_plane(const struct bake_planes *planes, const struct slab *slab,
   }
 }
 
-static enum result probe_around(const struct bake_work *work, struct bake_energy *energy,
-                                struct bake_report *report, struct error *error) {
-  int pages = work->lamp->slab_count;
-  struct bake_planes planes;
+static enum result start_around(const struct bake_work *work, struct bake_energy_bakes *bakes,
+                                struct error *error) {
   struct bake_work around = *work;
-  struct lamp lamp = *work->lamp;
-  struct probe_bake bake = {0};
-  enum result result = bake_planes_make(work, &planes, error);
-  lamp.slab_count = PLANES_SIDE * pages + planes.sides;
-  around.lamp = &lamp;
-  if (result == RESULT_OK)
-    result = probe_bake(&around, planes.baked, work->look.effects, NULL, 1, &bake, report, error);
-  for (int n = 0; n < bake.count && result == RESULT_OK; ++n)
-    add_plane(&planes, &bake.pages[n], n,
-              n < PLANES_WIDE * pages ? energy->window : energy->beside);
-  probe_bake_free(&bake);
-  bake_planes_free(&planes);
-  return result;
+  enum result result = bake_planes_make(work, &bakes->planes, error);
+  if (result != RESULT_OK) return result;
+  bakes->lamp = *work->lamp;
+  bakes->lamp.slab_count = PLANES_SIDE * work->lamp->slab_count + bakes->planes.sides;
+  around.lamp = &bakes->lamp;
+  return probe_bake_start(&around, bakes->planes.baked, work->look.effects, NULL, 1, &bakes->around,
+                          error);
+}
+
+static void add_planes(const struct bake_energy_bakes *bakes, struct bake_energy *energy) {
+  for (int n = 0; n < bakes->around.count; ++n)
+    add_plane(&bakes->planes, &bakes->around.pages[n], n,
+              n < PLANES_WIDE * bakes->planes.count ? energy->window : energy->beside);
+}
+
+/* ---- Both ---- */
+
+enum result bake_energy_start(const struct bake_work *work, struct bake_energy_bakes *bakes,
+                              struct error *error) {
+  *bakes = (struct bake_energy_bakes){0};
+  enum result result = start_dark(work, bakes, error);
+  return result == RESULT_OK ? start_around(work, bakes, error) : result;
+}
+
+void bake_energy_free(struct bake_energy_bakes *bakes) {
+  probe_bake_free(&bakes->dark);
+  probe_bake_free(&bakes->around);
+  bake_planes_free(&bakes->planes);
 }
 
 /* ---- 3. The balance ---- */
@@ -264,15 +272,18 @@ enum result bake_energy_cost(const struct bake_work *work, int *bakes, double *r
 }
 
 enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,
-                        struct bake_energy *energy, struct bake_report *report,
-                        struct error *error) {
+                        struct bake_energy_bakes *bakes, struct bake_energy *energy,
+                        struct bake_report *report, struct error *error) {
   const struct lamp *lamp = work->lamp;
   *energy = (struct bake_energy){.efficiency = NAN};
   for (int c = 0; c < 3; ++c) energy->sources[c] = lamp->bulb_flux[c] + lamp->glow_flux[c];
   enum result result = flux_box_lamp(work->slabs, lamp->slab_count, energy->pages, error);
-  if (result == RESULT_OK) result = probe_dark(work, energy, report, error);
+  if (result == RESULT_OK) result = probe_bake_wait(&bakes->dark, report, error);
+  if (result == RESULT_OK && bakes->dark.count)
+    result = flux_box_lamp(bakes->dark.pages, bakes->dark.count, energy->dark, error);
   if (result != RESULT_OK) return result;
-  result = probe_around(work, energy, report, error);
+  result = probe_bake_wait(&bakes->around, report, error);
+  if (result == RESULT_OK) add_planes(bakes, energy);
   double missed = luminance(energy->window) + luminance(energy->beside);
   double all = luminance(energy->pages) + missed;
   energy->missed = all > 0 ? missed / all : 0;

@@ -3,7 +3,7 @@
  * 1. Two small bakes of different numbers of rays give the CPU time of a process before its first
  *    ray (parsing, photons, most of radiosity's samples) and of each ray.
  * 2. The time is that until the slab is there, on a machine that does nothing else: of the rounds'
- *    batches (bake_plan.h), as many at a time as there are jobs, and of the balance after them
+ *    batches (bake_plan.h), as many at a time as there are jobs, and of the balance beside them
  *    (bake_energy.h). A process is idle for a while, and after each frame.
  * 3. Memory is that of the sums (bake_sum.c) and the samples, and of POV-Ray for each job.
  * 4. The small bakes, written as the slab will be, give the bytes of a row of t and of a sample:
@@ -94,7 +94,8 @@ static enum result estimate_time(const struct bake_work *work, const double cpu[
   }
   double balance_rays;
   enum result result = bake_energy_cost(work, &balances, &balance_rays, error);
-  estimate->seconds += balances * (first + idle_seconds) + balance_rays * per_ray;
+  estimate->seconds += (balances * (first + idle_seconds) + balance_rays * per_ray) /
+                       fmin(options->jobs, fmax(1, cores));
   return result;
 }
 

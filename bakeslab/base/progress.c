@@ -1,5 +1,6 @@
 #include "base/progress.h"
 
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,9 @@
 #include <unistd.h>
 
 enum { BAR = 30 };
+
+/* A terminal has one line for a bar: while one is drawn, others wait for its end. */
+static atomic_flag drawing = ATOMIC_FLAG_INIT;
 
 double progress_now(void) {
   struct timespec time;
@@ -47,6 +51,8 @@ static void print_time(double seconds) {
 void progress_show(struct progress *progress, double part, const char *label) {
   double time = progress_now();
   if (!progress->shown || time - progress->drawn < 0.2) return;
+  if (!progress->draws && atomic_flag_test_and_set(&drawing)) return;
+  progress->draws = true;
   progress->drawn = time;
   int filled = (int)(part * BAR);
   fprintf(stderr, "\r%s [", label);
@@ -58,6 +64,9 @@ void progress_show(struct progress *progress, double part, const char *label) {
 }
 
 void progress_end(struct progress *progress) {
-  if (progress->shown) fputs("\r\033[K", stderr);
-  progress->shown = false;
+  if (progress->draws) {
+    fputs("\r\033[K", stderr);
+    atomic_flag_clear(&drawing);
+  }
+  progress->shown = progress->draws = false;
 }

@@ -1,11 +1,12 @@
-/* progress.h - a bar with the time left, on stderr while that is a terminal. */
+/* progress.h - a bar with the time left, on stderr while that is a terminal; of several at once, by
+ * threads, one at a time. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
 #include <stdbool.h>
 
 struct progress {
-  bool shown;
+  bool shown, draws;   /* may be shown; is the one that is */
   double start, drawn; /* seconds */
   double start_part;   /* of the work, done before this run */
 };

@@ -8,9 +8,16 @@
 
 /* A POV-Ray process costs 0.1 s whatever it renders: batches take a few seconds, those of a
  * round cost about the same, and their number is a multiple of BATCH_EVEN, so that a few processes
- * end together. Costs are in rays; a camera costs some too, since POV-Ray finds a mesh
- * camera's face by a linear search through the meshes. */
-enum { BATCH_COST = 1 << 21, CAMERA_COST = 256, BATCH_EVEN = 4, BATCH_FRAMES = 512 };
+ * end together. What is less, but more than HALVED, is cut in two, unless a process is dear.
+ * Costs are in rays; a camera costs some too, since POV-Ray finds a mesh camera's face by a linear
+ * search through the meshes. */
+enum {
+  BATCH_COST = 1 << 21,
+  HALVED = 1 << 16,
+  CAMERA_COST = 256,
+  BATCH_EVEN = 4,
+  BATCH_FRAMES = 512
+};
 
 /* The side of the largest mesh of directions, whose parsing grows faster than its faces do. */
 enum { MESH = 64 };
@@ -174,17 +181,18 @@ static size_t batch_cost(const struct bake_batch *batch) {
 }
 
 /* The batches that so much is cut into. */
-static size_t cut(size_t cost) {
+static size_t cut(size_t cost, bool dear) {
   size_t batches = (cost + BATCH_COST - 1) / BATCH_COST;
-  return batches > 1 ? (batches + BATCH_EVEN - 1) / BATCH_EVEN * BATCH_EVEN : batches;
+  if (batches > 1) return (batches + BATCH_EVEN - 1) / BATCH_EVEN * BATCH_EVEN;
+  return cost > HALVED && !dear ? 2 : batches;
 }
 
 /* The cost at which a batch is full. */
-static size_t full_cost(const struct bake_round *round) {
+static size_t full_cost(const struct bake_round *round, bool dear) {
   struct bake_batch all = {.count = round->unit_count};
   for (size_t unit = 0; unit < round->unit_count; ++unit)
     all.rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
-  size_t batches = cut(batch_cost(&all));
+  size_t batches = cut(batch_cost(&all), dear);
   return batches ? (batch_cost(&all) + batches - 1) / batches : 1;
 }
 
@@ -201,8 +209,9 @@ static bool fits(const struct bake_round *round, const struct bake_batch *batch,
   return batch_cost(batch) < full;
 }
 
-static enum result cut_batches(struct bake_round *round, enum bake_form form, struct error *error) {
-  size_t full = full_cost(round);
+static enum result cut_batches(const struct bake_tiles *tiles, struct bake_round *round,
+                               enum bake_form form, struct error *error) {
+  size_t full = full_cost(round, tiles->dear);
   round->batches = malloc((round->unit_count + 1) * sizeof *round->batches); /* at most */
   if (!round->batches) return result_no_memory(error);
   struct bake_batch *last = round->batches;
@@ -295,7 +304,7 @@ enum result bake_plan_whole(const struct bake_tiles *tiles, int from, int to, en
   if (!add_boxes(tiles, NULL, 0, longest_side(form), round) ||
       !add_passes(round, 0, from, to, true))
     return result_no_memory(error);
-  return cut_batches(round, form, error);
+  return cut_batches(tiles, round, form, error);
 }
 
 static double parts(int samples) {
@@ -314,7 +323,7 @@ void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_
   }
   *frames = form == BAKE_MESH ? 0 : cameras;
   *batches =
-      fmax((double)cut((size_t)(rays + CAMERA_COST * cameras)), ceil(*frames / BATCH_FRAMES));
+      fmax((double)cut((size_t)(rays + CAMERA_COST * cameras), true), ceil(*frames / BATCH_FRAMES));
 }
 
 /* The least that any tile has of those that lack passes, and the most that any is to get. */
@@ -343,5 +352,5 @@ enum result bake_plan_rest(const struct bake_tiles *tiles, const int *done, cons
            add_passes(round, box, from, to, form == BAKE_MESH);
   }
   free(step);
-  return good ? cut_batches(round, form, error) : result_no_memory(error);
+  return good ? cut_batches(tiles, round, form, error) : result_no_memory(error);
 }

@@ -16,6 +16,7 @@ struct bake_tiles {
   int pages;
   const struct slab *slabs; /* not owned */
   bool transposed;          /* a camera covers u and v rather than s and t */
+  bool dear;                /* photons or interreflection: each process costs many rays */
   int side;                 /* of a tile, in samples; of shorter axes the whole */
   int *first_tile;          /* [pages + 1] */
 };

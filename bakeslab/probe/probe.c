@@ -115,15 +115,6 @@ static bool is_expensive(enum effect effect) {
   return effect == INTERREFLECTION || effect == EXTENDED_SOURCE;
 }
 
-/* Whether an effect is known to change nothing: all rays end before canned.inc's ordinary trace
- * level, or there is no Canned_Bulb to extend. */
-static bool changes_nothing(const struct bake_work *work, enum effect effect,
-                            const struct probe_bake *without) {
-  enum { ORDINARY_LEVEL = 12 };
-  return (effect == DEEP_TRACE && without->depth < ORDINARY_LEVEL) ||
-         (effect == EXTENDED_SOURCE && !work->lamp->bulbs);
-}
-
 /* Without caustics all light that meets a target goes on straight: that loses less than photons
  * that are never shot. */
 static void warn_of_photons(const struct probe_bake *with, struct warnings *warnings) {
@@ -131,38 +122,49 @@ static void warn_of_photons(const struct probe_bake *with, struct warnings *warn
                with->photons_lost);
 }
 
+/* Bakes with `less` and with `more`, both at once, and compares them. */
+static enum result compare(const struct bake_work *work, const struct effects *less,
+                           const struct effects *more, int directions, struct probe_change *change,
+                           double *deviation, int *depth, struct bake_report *report,
+                           struct error *error) {
+  const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, directions, directions};
+  const struct slab *slabs = work->lamp->slabs;
+  struct probe_bake without = {0}, with = {0};
+  enum result result = probe_bake_start(work, slabs, less, samples, 1, &without, error);
+  if (result == RESULT_OK) result = probe_bake_start(work, slabs, more, samples, 1, &with, error);
+  if (result == RESULT_OK) result = probe_bake_wait(&without, report, error);
+  if (result == RESULT_OK) result = probe_bake_wait(&with, report, error);
+  if (result == RESULT_OK) {
+    *deviation = compare_flux(&without, &with, change);
+    compare_rms(&without, &with, change);
+    change->rays = ratio(with.traced, without.traced);
+    *depth = with.depth;
+  }
+  if (with.photons_lost[0]) {
+    warn_of_photons(&with, &report->warnings);
+    *change = (struct probe_change){.rays = 1};
+    *deviation = 0;
+  }
+  probe_bake_free(&without);
+  probe_bake_free(&with);
+  return result;
+}
+
 /* What an effect, a step further in `more` than in `less`, changes, and the trace level that rays
- * reach with `more`. Photons that are lost change nothing, and a warning tells of them. */
+ * reach with `more`. Photons that are lost change nothing, and a warning tells of them; where no
+ * Canned_Bulb can be extended, nothing is baked. */
 static enum result measure(const struct bake_work *work, enum effect effect,
                            const struct effects *less, const struct effects *more,
                            struct probe_change *change, int *depth, struct bake_report *report,
                            struct error *error) {
-  const struct slab *slabs = work->lamp->slabs;
   enum result result = RESULT_OK;
-  bool certain = false;
+  bool certain = effect == EXTENDED_SOURCE && !work->lamp->bulbs;
+  *change = (struct probe_change){.rays = 1};
   for (int n = is_expensive(effect) ? SPARSE : DENSE;
        n <= MOST_DIRECTIONS && !certain && result == RESULT_OK; n *= 2) {
-    const int samples[SLAB_AXES] = {POSITIONS, POSITIONS, n, n};
-    struct probe_bake without = {0}, with = {0};
-    result = probe_bake(work, slabs, less, samples, 1, &without, report, error);
-    certain = changes_nothing(work, effect, &without);
-    *change = (struct probe_change){.rays = 1};
-    if (result == RESULT_OK && !certain)
-      result = probe_bake(work, slabs, more, samples, 1, &with, report, error);
-    if (result == RESULT_OK && !certain) {
-      double deviation = compare_flux(&without, &with, change);
-      compare_rms(&without, &with, change);
-      change->rays = ratio(with.traced, without.traced);
-      *depth = with.depth;
-      certain = fabs(fabs(change->flux) - work->options->effect_threshold) > 2 * deviation;
-    }
-    if (with.photons_lost[0]) {
-      warn_of_photons(&with, &report->warnings);
-      *change = (struct probe_change){.rays = 1};
-      certain = true;
-    }
-    probe_bake_free(&without);
-    probe_bake_free(&with);
+    double deviation = 0;
+    result = compare(work, less, more, n, change, &deviation, depth, report, error);
+    certain = fabs(fabs(change->flux) - work->options->effect_threshold) > 2 * deviation;
   }
   return result;
 }

@@ -102,27 +102,32 @@ static void move_plane(struct slab *slab, double distance) {
   slab->st_distance = distance;
 }
 
-/* Steps 1 and 2 for the st planes as they are, or moved to the distance. */
-static enum result estimate_pages(const struct bake_work *work, const struct slab *slabs,
-                                  bool moved, struct page_errors *errors,
-                                  struct bake_report *report, struct error *error) {
+/* Starts step 1 for the st planes as they are, or moved to the distance. */
+static enum result start_pages(const struct bake_work *work, const struct slab *slabs, bool moved,
+                               struct probe_bake *bake, struct error *error) {
   int pages = work->lamp->slab_count;
   struct effects effects = *work->look.effects;
-  struct probe_bake bake = {0};
   struct slab *geometry = calloc((size_t)pages, sizeof *geometry); /* owns nothing */
-  enum result result = geometry ? RESULT_OK : result_no_memory(error);
-  for (int n = 0; n < pages && result == RESULT_OK; ++n) {
+  if (!geometry) return result_no_memory(error);
+  for (int n = 0; n < pages; ++n) {
     geometry[n] = slabs[n];
     if (moved) move_plane(&geometry[n], work->options->for_distance);
   }
   effects.setting[INTERREFLECTION] = 0;
-  if (result == RESULT_OK)
-    result = probe_bake(work, geometry, &effects, probe_samples, PROBE_RAYS, &bake, report, error);
-  for (int n = 0; n < pages && result == RESULT_OK; ++n)
-    result = estimate_page(&bake.pages[n], bake_need_distance(work->options, &bake.pages[n]),
-                           &errors[n], error);
-  probe_bake_free(&bake);
+  enum result result =
+      probe_bake_start(work, geometry, &effects, probe_samples, PROBE_RAYS, bake, error);
   free(geometry);
+  return result;
+}
+
+/* Step 2. */
+static enum result estimate_pages(const struct bake_work *work, struct probe_bake *bake,
+                                  struct page_errors *errors, struct bake_report *report,
+                                  struct error *error) {
+  enum result result = probe_bake_wait(bake, report, error);
+  for (int n = 0; n < bake->count && result == RESULT_OK; ++n)
+    result = estimate_page(&bake->pages[n], bake_need_distance(work->options, &bake->pages[n]),
+                           &errors[n], error);
   return result;
 }
 
@@ -191,11 +196,14 @@ enum result probe_resolution(const struct bake_work *work, struct slab *slabs,
                              struct error *error) {
   const struct bake_options *options = work->options;
   struct choice choices[2] = {0};
+  struct probe_bake bakes[2] = {0};
   int pages = work->lamp->slab_count, planes = options->for_distance > 0 ? 2 : 1, best = 0;
   struct page_errors *errors = calloc((size_t)pages, sizeof *errors);
   enum result result = errors ? RESULT_OK : result_no_memory(error);
+  for (int n = 0; n < planes && result == RESULT_OK; ++n)
+    result = start_pages(work, slabs, n == 1, &bakes[n], error);
   for (int n = 0; n < planes && result == RESULT_OK; ++n) {
-    result = estimate_pages(work, slabs, n == 1, errors, report, error);
+    result = estimate_pages(work, &bakes[n], errors, report, error);
     if (result == RESULT_OK) choices[n] = choose(errors, pages, options);
     if (result == RESULT_OK && n && is_better(&choices[n], &choices[0], options->tolerance))
       best = n;
@@ -204,6 +212,7 @@ enum result probe_resolution(const struct bake_work *work, struct slab *slabs,
     apply(work, &choices[best], best == 1, slabs, resolution);
     say(options, &choices[best], choices, best == 1, resolution);
   }
+  for (int n = 0; n < planes; ++n) probe_bake_free(&bakes[n]);
   free(errors);
   return result;
 }

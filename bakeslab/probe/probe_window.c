@@ -83,19 +83,14 @@ static void grow(const struct slab *wide, int axis, double window[2]) {
   }
 }
 
-static enum result probe_beyond(const struct bake_work *work, struct slab *slabs, int positions,
-                                struct bake_report *report, struct error *error) {
+static enum result start_beyond(const struct bake_work *work, struct slab *slabs, int positions,
+                                struct probe_bake *bake, struct error *error) {
   const int samples[SLAB_AXES] = {positions, positions, MOST_DIRECTIONS, MOST_DIRECTIONS};
   int count = work->lamp->slab_count;
-  struct probe_bake bake = {0};
   struct slab *wide = malloc((size_t)count * sizeof *wide); /* owns nothing */
-  enum result result = wide ? RESULT_OK : result_no_memory(error);
-  for (int n = 0; n < count && result == RESULT_OK; ++n) wide[n] = reaching(&slabs[n]);
-  if (result == RESULT_OK)
-    result = probe_bake(work, wide, work->look.effects, samples, 1, &bake, report, error);
-  for (int n = 0; n < bake.count && result == RESULT_OK; ++n)
-    for (int k = 0; k < 2; ++k) grow(&bake.pages[n], SLAB_S + k, slabs[n].st_window + 2 * k);
-  probe_bake_free(&bake);
+  if (!wide) return result_no_memory(error);
+  for (int n = 0; n < count; ++n) wide[n] = reaching(&slabs[n]);
+  enum result result = probe_bake_start(work, wide, work->look.effects, samples, 1, bake, error);
   free(wide);
   return result;
 }
@@ -136,45 +131,52 @@ bool probe_window_pays(const struct bake_work *work) {
           samples >= pow(positions(work) * DIRECTIONS, 2));
 }
 
-/* Steps 1 to 3: of each page, the part of its window that is lit. */
-static enum result find_light(const struct bake_work *work, const struct slab *slabs,
-                              double (*light)[4], struct bake_report *report, struct error *error) {
-  int pages = work->lamp->slab_count;
-  struct effects effects = *work->look.effects;
-  int bakes = effects.setting[INTERREFLECTION] > 0 ? 2 : 1;
-  enum result result = RESULT_OK;
-  for (int n = 0; n < pages; ++n)
-    for (int k = 0; k < 4; ++k) light[n][k] = k % 2 ? -INFINITY : INFINITY;
-  for (int n = 0; n < bakes && result == RESULT_OK; ++n) {
-    int uv = n ? positions(work) / 4 : positions(work), st = n ? FEW_DIRECTIONS : DIRECTIONS;
-    const int samples[SLAB_AXES] = {uv, uv, st, st};
-    struct probe_bake bake;
-    effects.setting[INTERREFLECTION] = n ? work->look.effects->setting[INTERREFLECTION] : 0;
-    result = probe_bake(work, slabs, &effects, samples, 1, &bake, report, error);
-    for (int page = 0; page < bake.count && result == RESULT_OK; ++page)
-      for (int k = 0; k < 2; ++k) widen(&bake.pages[page], SLAB_S + k, light[page] + 2 * k);
-    probe_bake_free(&bake);
-  }
+/* The small bakes, which run at once: the light that comes straight, that which is scattered, and
+ * what is beyond the windows. */
+enum { STRAIGHT, SCATTERED, BEYOND, BAKES };
+
+static enum result start_bakes(const struct bake_work *work, struct slab *slabs, bool beyond,
+                               struct probe_bake bakes[BAKES], struct error *error) {
+  int uv = positions(work);
+  struct effects straight = *work->look.effects;
+  straight.setting[INTERREFLECTION] = 0;
+  enum result result = probe_bake_start(
+      work, slabs, &straight, (int[]){uv, uv, DIRECTIONS, DIRECTIONS}, 1, &bakes[STRAIGHT], error);
+  if (result == RESULT_OK && work->look.effects->setting[INTERREFLECTION] > 0)
+    result = probe_bake_start(work, slabs, work->look.effects,
+                              (int[]){uv / 4, uv / 4, FEW_DIRECTIONS, FEW_DIRECTIONS}, 1,
+                              &bakes[SCATTERED], error);
+  if (result == RESULT_OK && beyond)
+    result = start_beyond(work, slabs, uv / 2, &bakes[BEYOND], error);
   return result;
+}
+
+/* Steps 3 to 6. */
+static void fit_windows(const struct bake_work *work, struct slab *slabs,
+                        const struct probe_bake bakes[BAKES], struct probe_windows *windows) {
+  for (int n = 0; n < work->lamp->slab_count; ++n) {
+    double light[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY}, before[4];
+    memcpy(before, slabs[n].st_window, sizeof before);
+    for (int k = 0; k < 2; ++k) {
+      for (int kind = STRAIGHT; kind <= SCATTERED; ++kind)
+        if (bakes[kind].count) widen(&bakes[kind].pages[n], SLAB_S + k, light + 2 * k);
+      if (bakes[BEYOND].count)
+        grow(&bakes[BEYOND].pages[n], SLAB_S + k, slabs[n].st_window + 2 * k);
+    }
+    fit(&slabs[n], n, light, before, work->options->window == BAKE_WINDOW_NARROWED, windows);
+  }
 }
 
 enum result probe_window(const struct bake_work *work, struct slab *slabs,
                          struct probe_windows *windows, struct bake_report *report,
                          struct error *error) {
-  int pages = work->lamp->slab_count;
-  bool narrow = work->options->window == BAKE_WINDOW_NARROWED;
-  double(*light)[4] = calloc((size_t)pages, sizeof *light);
-  double(*before)[4] = calloc((size_t)pages, sizeof *before);
+  bool beyond = work->options->window != BAKE_WINDOW_NARROWED && !work->lamp->final_window;
+  struct probe_bake bakes[BAKES] = {0};
   *windows = (struct probe_windows){0};
-  enum result result = light && before ? RESULT_OK : result_no_memory(error);
-  if (result == RESULT_OK) result = find_light(work, slabs, light, report, error);
-  for (int n = 0; n < pages && result == RESULT_OK; ++n)
-    memcpy(before[n], slabs[n].st_window, sizeof before[n]);
-  if (result == RESULT_OK && !narrow && !work->lamp->final_window)
-    result = probe_beyond(work, slabs, positions(work) / 2, report, error);
-  for (int n = 0; n < pages && result == RESULT_OK; ++n)
-    fit(&slabs[n], n, light[n], before[n], narrow, windows);
-  free(light);
-  free(before);
+  enum result result = start_bakes(work, slabs, beyond, bakes, error);
+  for (int n = 0; n < BAKES && result == RESULT_OK; ++n)
+    result = probe_bake_wait(&bakes[n], report, error);
+  if (result == RESULT_OK) fit_windows(work, slabs, bakes, windows);
+  for (int n = 0; n < BAKES; ++n) probe_bake_free(&bakes[n]);
   return result;
 }
