@@ -10,10 +10,10 @@ examples() { "$@" --help | sed -n '/^Examples/,/^$/ s/^  //p' | sed ':a; /\\$/ {
 # warn.
 runs() {
   local status=0 seconds=60
-  case $1 in *' bake '* | *' view '* | *tradeoff* | *'--mode auto'*) seconds=4 ;; esac
+  case $1 in *' bake '* | *' view '* | *tradeoff* | *'--mode auto'*) seconds=2 ;; esac
   timeout $seconds bash -c "$1" >out 2>&1 || status=$?
   case $status:$seconds:$1 in
-    0:* | 124:4:* | 1:*--strict*) ;;
+    0:* | 124:2:* | 1:*--strict*) ;;
     *) echo "$1: exit status $status" && cat out && return 1 ;;
   esac
 }
