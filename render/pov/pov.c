@@ -36,7 +36,7 @@ static void print_header(const char *path, const struct shade *view, const char 
   fprintf(out,
           " +W%d +H%d -A +FE +Oview.exr -D\n"
           "// The picture then holds radiances, as that of `renderslab image' does.\n"
-          "// The lamps light the scene, but are not seen in it.\n"
+          "// The camera sees into lamps whose includes are sheets, and what is behind them.\n"
           "#version 3.7;\n"
           "global_settings { assumed_gamma 1 ambient_light 0 }\n",
           view->width, view->height);
@@ -218,21 +218,62 @@ static void print_includes(const struct pov_includes *includes, FILE *out) {
   putc('\n', out);
 }
 
+/* From the scene's space to the lamp's: matrix is a similarity. */
+static void invert(const double matrix[4][3], double inverse[4][3]) {
+  double square = vector_dot(matrix[0], matrix[0]);
+  for (int row = 0; row < 3; ++row)
+    for (int c = 0; c < 3; ++c) inverse[row][c] = matrix[c][row] / square;
+  for (int c = 0; c < 3; ++c) inverse[3][c] = -vector_dot(matrix[3], matrix[c]) / square;
+}
+
+/* Whether the macro draws a face of the light: a page is in front of the camera. It refuses a
+ * camera in an opening. */
+static bool has_face(const struct light *light, const double from[3]) {
+  bool front = false;
+  for (int page = 0; page < light->count; ++page) {
+    const struct light_page *seen = &light->pages[page];
+    double to_eye[3], least = 4e-6 * fmax(seen->axes[0].half, seen->axes[1].half);
+    vector_subtract(from, seen->center, to_eye);
+    double before = vector_dot(to_eye, seen->frame[2]);
+    front |= before > least;
+    if (fabs(before) <= least && fabs(vector_dot(to_eye, seen->frame[0])) <= seen->axes[0].half &&
+        fabs(vector_dot(to_eye, seen->frame[1])) <= seen->axes[1].half)
+      return false;
+  }
+  return front;
+}
+
 /* The scale is the macro's argument: POV-Ray's `scale` leaves a light's brightness alone. */
-static void print_light(const struct light *light, const char *name, FILE *out) {
+static void print_object(const char *name, const char *macro, const struct light *light,
+                         const double eye[3], FILE *out) {
   double scale = vector_length(light->matrix[0]);
   const double *gain = light->gain;
-  fprintf(out, "object { %s_Canned(%.15g, ", name, scale);
+  fprintf(out, "object { %s_%s(%.15g, ", name, macro, scale);
   if (gain[0] == gain[1] && gain[0] == gain[2])
     fprintf(out, "%.15g", gain[0]);
   else
     fprintf(out, "rgb <%.15g, %.15g, %.15g>", gain[0], gain[1], gain[2]);
+  if (eye) print_vector(", ", eye, out);
   double unscaled[4][3];
   for (int row = 0; row < 4; ++row)
     for (int c = 0; c < 3; ++c) unscaled[row][c] = light->matrix[row][c] / (row < 3 ? scale : 1);
   fputs(")\n  ", out);
   print_matrix(unscaled, out);
   fputs(" }\n", out);
+}
+
+/* The lamp's light and, where the camera may look into it, its face: the camera is seen from the
+ * object before that is turned and moved. */
+static void print_light(const struct light *light, const struct pov_include *include,
+                        const double from[3], FILE *out) {
+  double inverse[4][3], eye[3], scale = light->scale;
+  print_object(include->name, "Canned", light, NULL, out);
+  if (!include->face || !has_face(light, from)) return;
+  invert(light->matrix, inverse);
+  for (int c = 0; c < 3; ++c)
+    eye[c] = scale * (from[0] * inverse[0][c] + from[1] * inverse[1][c] + from[2] * inverse[2][c] +
+                      inverse[3][c]);
+  print_object(include->name, "Canned_Face", light, eye, out);
 }
 
 static void print_scene(const char *path, const struct shade *view,
@@ -242,20 +283,12 @@ static void print_scene(const char *path, const struct shade *view,
   print_includes(includes, out);
   print_camera(view, NULL, out);
   for (int k = 0; k < view->light_count; ++k)
-    print_light(&view->lights[k], includes->list[includes->of_light[k]].name, out);
+    print_light(&view->lights[k], &includes->list[includes->of_light[k]], view->camera.from, out);
   putc('\n', out);
   print_mesh(view->scene, NULL, "", note, out);
 }
 
 /* ---- The lamp itself ---- */
-
-/* From the scene's space to the lamp's: matrix is a similarity. */
-static void invert(const double matrix[4][3], double inverse[4][3]) {
-  double square = vector_dot(matrix[0], matrix[0]);
-  for (int row = 0; row < 3; ++row)
-    for (int c = 0; c < 3; ++c) inverse[row][c] = matrix[c][row] / square;
-  for (int c = 0; c < 3; ++c) inverse[3][c] = -vector_dot(matrix[3], matrix[c]) / square;
-}
 
 /* The mesh, moved to the lamp. Rays that gather light for radiosity must meet it, since it throws
  * shadows, but must bring no light from it: they see a black copy, which pictures do not show. */

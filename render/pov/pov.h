@@ -2,8 +2,8 @@
  * the lights by their include files.
  *
  * What POV-Ray cannot do is told in comments of the scene, and in a note: its highlights have
- * one amount for all colours, and a texture is multiplied by one number. The lamps themselves
- * are not seen there. */
+ * one amount for all colours, and a texture is multiplied by one number. Lamps are seen, as far
+ * as their includes declare what a camera sees of them: sheets do. */
 #ifndef POV_H
 #define POV_H
 

@@ -15,19 +15,21 @@ static char *with_suffix(const char *path, const char *suffix) {
 }
 
 /* The name in "#macro NAME_Canned(Scale, Gain)", which may differ from the slab's (bakeslab
- * include --name). False where there is none. */
-static bool find_macro(FILE *file, char name[SDL_IDENTIFIER_SIZE]) {
-  static const char start[] = "#macro ", end[] = "_Canned(Scale, Gain)";
+ * include --name), and whether its face is declared, in any order. False where there is no name. */
+static bool find_macros(FILE *file, struct pov_include *include) {
+  static const char start[] = "#macro ", end[] = "_Canned(Scale, Gain)",
+                    face[] = "_Canned_Face(Scale, Gain, Eye)";
   char *line = NULL;
   size_t room = 0;
   bool found = false;
-  while (!found && getline(&line, &room, file) >= 0) {
+  while (getline(&line, &room, file) >= 0) {
     if (strncmp(line, start, sizeof start - 1)) continue;
     const char *from = line + sizeof start - 1, *to = strstr(from, end);
     size_t length = to ? (size_t)(to - from) : 0;
-    if (length == 0 || length >= SDL_IDENTIFIER_SIZE) continue;
-    memcpy(name, from, length);
-    name[length] = 0;
+    include->face |= strstr(from, face) != NULL;
+    if (found || length == 0 || length >= sizeof include->name) continue;
+    memcpy(include->name, from, length);
+    include->name[length] = 0;
     found = true;
   }
   free(line);
@@ -47,10 +49,10 @@ static enum result read_include(const struct light *light, struct pov_include *i
     return result_fail(error, RESULT_BAD, "%s: is not there; make it by: bakeslab include %s -o %s",
                        path, light->path, path);
   if (!file) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
-  bool found = find_macro(file, include->name), whole = found || feof(file);
+  bool found = find_macros(file, include), whole = feof(file);
   int why = errno;
   fclose(file);
-  if (found) return RESULT_OK;
+  if (found && whole) return RESULT_OK;
   if (!whole) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(why));
   return result_fail(error, RESULT_BAD,
                      "%s: declares no lamp; make it again by: bakeslab include %s -o %s", path,

@@ -10,6 +10,7 @@ struct pov_include {
   char *path;                     /* of the include: the slab's, ending in .inc; owned */
   char *image;                    /* of its image; owned */
   char name[SDL_IDENTIFIER_SIZE]; /* Desk_Lamp for the macro Desk_Lamp_Canned */
+  bool face;                      /* it declares Desk_Lamp_Canned_Face, too */
   int light;                      /* the first that uses it */
 };
 

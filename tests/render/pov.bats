@@ -92,3 +92,13 @@ load letter
   run -0 --separate-stderr "${pov[@]}" --light letter_f.tif -o -
   [[ $output == *'mesh2 {'* ]]
 }
+
+# Before black: POV-Ray shows what is behind a lamp, too.
+@test "a camera that looks into lamps: turned, mirrored, scaled, coloured; and from behind" {
+  local lamps=(--light 'letter_f.tif at=0.4,1.2,-0.3 toward=0.1,0,-1 up=1,0.3,0.5 scale=1.7 gain=3,0.5,1.2'
+    --light 'letter_f.tif matrix=-2,0,0,0,1.6,1.2,0,-1.2,1.6,-0.5,1.2,0.2' --light 'letter_f.tif at=0.35,0.42,-1')
+  CAMERA='from=0.1,0.25,-1.32 at=0.1,0.8,0.1 fov=110' agree 0.1 faces floor.obj "${lamps[@]}"
+  [ "$(grep -c 'Canned_Face' faces.pov)" -eq 3 ]
+  "$RENDERSLAB" pov floor.obj --light 'letter_f.tif at=0,1,0' --camera 'from=0,5,-1 at=0,0,0' -o behind.pov
+  run -1 grep 'Canned_Face' behind.pov
+}

@@ -107,6 +107,7 @@ void cluster_print(const struct cluster *cluster, const struct include_text *tex
   const struct include_value values[] = {
       {"least_scale", .number = least_width / narrowest},
       {"pages", .print = print_pages, .of = cluster},
+      {"no_face", .number = 1},
       {"lights", .number = most},
       {"light_count", .number = cluster_light_count(cluster)},
       {"place_rows", .print = print_rows, .of = &(struct rows){cluster, print_place}},

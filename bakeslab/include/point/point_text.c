@@ -27,6 +27,7 @@ void point_print(const struct point *point, const struct include_text *text, FIL
     flux[c] = point->flux[c] * (frame->metres_per_unit * frame->metres_per_unit);
   for (int d = 0; d < POINT_DISTANCES; ++d) percent[d] = 100 * point->error[d];
   const struct include_value values[] = {
+      {"no_face", .number = 1},
       {"flux", .numbers = flux},
       {"flux_unit", .text = slab_flux_unit(frame)},
       {"percent", .numbers = percent},

@@ -5,7 +5,7 @@
 #include "include/sheet/sheet.h"
 #include "slab/plane.h"
 
-extern const char sheet_inc[], sheet_page_inc[];
+extern const char sheet_inc[], sheet_page_inc[], sheet_face_inc[];
 
 /* Relative to the peak: smallest half with full precision, and half of the
  * smallest above zero. */
@@ -24,6 +24,10 @@ static const double gate = 0.5, gap = 0.00104, least_height = 0.0011;
 /* How far the lights below zero stand behind the box, in scene units: POV-Ray ignores shadows
  * closer than 0.001. */
 static const double behind = 0.0011;
+
+/* Nothing is seen beyond the image's edges; POV-Ray, where it is told so, does not look through
+ * all of the image, once for each copy of the pigment, whether it is opaque. */
+static const char once[] = "once ";
 
 /* Rows of a page's table. */
 static void print_table(const void *of, FILE *out) {
@@ -126,6 +130,7 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
     for (int k = 0; k < sheet->pages[p].level_count; ++k, ++levels)
       rows += sheet->pages[p].levels[k].views.samples[SLAB_V];
   const struct include_value values[] = {{"pages", .print = print_pages, .of = sheet},
+                                         {"face", .part = sheet_face_inc},
                                          {"lights", .number = sheet_most_lights(sheet)},
                                          {"page_count", .number = sheet->page_count},
                                          {"page_rows", .print = print_page_rows, .of = sheet},
@@ -134,7 +139,7 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
                                          {"level_rows", .print = print_level_rows, .of = sheet},
                                          {"lit_count", .number = rows},
                                          {"lit_rows", .print = print_lit_rows, .of = sheet},
-                                         {"mapping", .text = ""},
+                                         {"mapping", .text = once},
                                          {"width", .number = sheet->picture.width},
                                          {"height", .number = sheet->picture.height},
                                          {"least_height", .number = least_height},

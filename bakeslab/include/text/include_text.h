@@ -29,12 +29,13 @@ struct include_text {
  *                       one name declares it; the second finds out whether it is the same lamp
  *   image               finds the image and reads it into the pigment @_Sheet, with `mapping`,
  *                       of `values`, in its image_map
- *   checks              macros: @_Text(X) writes a number for a message, @_Strength(Colour)
- *                       stops where POV-Ray's numbers cannot hold a lamp whose brightest light
- *                       has this colour and a fade distance of 1e-3 aperture widths,
- *                       @_Fits(Width) where it is wider in the scene than most_width
- *   canned              begins the macro @_Canned(Scale, Gain): declares Size_, a positive
- *                       number, and Gain_, a vector, or stops
+ *   checks              macros: @_Text(X) writes a number for a message; @_Size(Scale, Macro)
+ *                       is Scale as a positive number, or stops; @_Gain(Gain) is Gain as a
+ *                       vector; @_Strength(Colour) stops where POV-Ray's numbers cannot hold a
+ *                       lamp whose brightest light has this colour and a fade distance of 1e-3
+ *                       aperture widths, @_Fits(Width) where it is wider in the scene than
+ *                       most_width
+ *   canned              begins the macro @_Canned(Scale, Gain): declares Size_ and Gain_
  * The caller checks the stream. */
 void include_print(const char *template, const struct include_text *text,
                    const struct include_lamp *lamp, const struct include_value *values, FILE *out);
