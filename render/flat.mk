@@ -39,7 +39,7 @@ $(FIGURES)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov
 define figure3
 	@echo 'Rendering $@'
 	@$(RENDER_BIN) image $(FIGURE3:%.mtl=) --light '$< at=0,36,0' --camera 'from=-12,34,-100 at=-2,13,0 fov=52' \
-	  --size 480x300 --samples 2 --method reference --exposure 0.8 --preview $(@:.exr=.png) --stats $(@:.exr=.json) -o $@
+	  --size 480x300 --samples 2 --method reference --exposure 6.8989 --preview $(@:.exr=.png) --stats $(@:.exr=.json) -o $@
 endef
 
 $(FIGURES)/figure3.exr: $(FIGURES)/parabolic.tif $(FIGURE3) $(RENDER_BIN)
@@ -91,7 +91,7 @@ $(FIGURES)/projector.tif: $(FIGURES)/slide.png $(BAKE_BIN)
 $(FIGURES)/figure5-%.exr: $(FIGURES)/projector.tif $(FIGURE5) $(RENDER_BIN)
 	@echo 'Rendering $@'
 	@$(RENDER_BIN) image $(FIGURE5:%.mtl=) --light '$< at=-0.845,0,-1.813 toward=0,0,0' --camera 'from=0.45,0,-3.1 at=0.45,0,0 fov=62' \
-	  --size 400x250 --samples 2 --method $* --exposure 0.0045 --preview $(@:.exr=.png) -o $@
+	  --size 400x250 --samples 2 --method $* --exposure -8.0589 --preview $(@:.exr=.png) -o $@
 
 .PHONY: figures
 figures: $(FIGURES)/figure3.exr $(FIGURES)/figure3-half.exr | $(FIGURES)/figure6.txt $(FIGURE5_PICTURES) ## render the figures of the paper

@@ -125,7 +125,7 @@ static const struct value values[] = {
     {KEY(wish.tolerance), VALUE_POSITIVE, ARGUMENT(wish.tolerance), 0, 0},
     {'n', VALUE_TEXT, ARGUMENT(wish.name), 0, 0},
     {KEY(wish.lumens), VALUE_POSITIVE, ARGUMENT(wish.lumens), 0, 0},
-    {KEY(wish.kelvin), VALUE_REAL, ARGUMENT(wish.kelvin), 1000, 15000},
+    {KEY(wish.kelvin), VALUE_REAL, ARGUMENT(wish.kelvin), 1000, 40000},
     {KEY(wish.turn), VALUE_WORD, ARGUMENT(wish.turn), 1, 0},
     {KEY(wish.box), VALUE_FLAG, ARGUMENT(wish.box), 0, 0},
     {KEY(unit), VALUE_WORD, ARGUMENT(unit), 0, 0},

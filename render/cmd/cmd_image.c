@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/numbers.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/values.h"
@@ -46,8 +47,11 @@ static const struct argp_option options_list[] = {
      "tolerance more, as the part \"error\" tells. Method gl: everywhere",
      0},
     {"preview", OPTION_PREVIEW, "FILE.png", 0, "Write an 8-bit sRGB picture too", 0},
-    {"exposure", OPTION_EXPOSURE, "X", 0,
-     "Radiance that is white in a PNG (default: 99 % of the pixels are at most 0.9 of it)", 0},
+    {"exposure", OPTION_EXPOSURE, "auto|EV", 0,
+     "What is white in a PNG: by the picture (99 % of the pixels are at most 0.9 of it; the "
+     "default), or 1.2 * 2^EV cd/m2, which is what a camera of ISO 100 takes so; radiance in watts "
+     "counts 179 lm/W, and relative radiance as cd/m2",
+     0},
     {"time-limit", OPTION_TIME_LIMIT, "S", 0,
      "The best picture that S seconds allow from the command's start to its end, down to "
      "--tolerance; says how good it got",
@@ -60,7 +64,6 @@ static const struct value values[] = {
     {'o', VALUE_TEXT, ARGUMENT(files.output), 0, 0},
     {OPTION_SAMPLES, VALUE_WHOLE, ARGUMENT(samples), 1, IMAGE_MOST_SAMPLES},
     {OPTION_PREVIEW, VALUE_TEXT, ARGUMENT(files.preview), 0, 0},
-    {OPTION_EXPOSURE, VALUE_POSITIVE, ARGUMENT(files.exposure), 0, 0},
     {OPTION_TIME_LIMIT, VALUE_POSITIVE, ARGUMENT(time_limit), 0, 0},
     {OPTION_NO_SHADOWS, VALUE_FLAG, ARGUMENT(no_shadows), 0, 0},
     {0}};
@@ -73,12 +76,24 @@ static void check_output(const char *path, struct argp_state *state) {
     argp_error(state, "-o %s: must end in .exr or .png", path);
 }
 
+static void parse_exposure(const char *value, struct picture_files *files,
+                           struct argp_state *state) {
+  static const double most = 100; /* floats end not far beyond */
+  files->exposed = strcmp(value, "auto") != 0;
+  if (files->exposed && (!numbers_real(value, 1, &files->exposure) || files->exposure < -most ||
+                         files->exposure > most))
+    argp_error(state, "--exposure %s: must be auto or a number from %g to %g", value, -most, most);
+}
+
 static error_t parse(int key, char *value, struct argp_state *state) {
   struct arguments *arguments = state->input;
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = &arguments->world.options;
     state->child_inputs[1] = &arguments->world.view;
+    return 0;
+  case OPTION_EXPOSURE:
+    parse_exposure(value, &arguments->files, state);
     return 0;
   case ARGP_KEY_SUCCESS:
     if (arguments->time_limit > 0 &&
@@ -119,6 +134,7 @@ static enum result load(struct arguments *arguments, struct error *error) {
   struct world *world = &arguments->world;
   const char *outputs[] = {arguments->files.output, arguments->files.preview, world->options.stats};
   enum result result = world_load_lights(world, outputs, 3, error);
+  if (result == RESULT_OK) arguments->files.luminance = world_luminance(world);
   if (result == RESULT_OK) result = world_prepare(world, count_receivers(arguments), error);
   if (result == RESULT_OK) result = world_load_scene(world, SCENE_SURFACES, error);
   if (result == RESULT_OK) result = check_method(world, error);
@@ -270,6 +286,9 @@ static const char help_text[] =
     "  renderslab image room.obj --light 'lamp.tif at=0,190,20 gain=1,0.8,0.6' \\\n"
     "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o room.exr \\\n"
     "    --samples 3 --preview room.png --stats room.json\n"
+    "  renderslab image room.obj \\\n"
+    "    --light 'lamp.tif at=0,190,20 lumens=800 kelvin=2700' --exposure 5 \\\n"
+    "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o bright.png\n"
     "  renderslab image room.obj --light 'lamp.tif at=0,190,20' \\\n"
     "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o quick.png \\\n"
     "    --time-limit 0.5";

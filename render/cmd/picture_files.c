@@ -16,14 +16,18 @@ bool picture_files_end(const char *path, const char *ending) {
   return length > end && !strcmp(path + length - end, ending);
 }
 
+/* cd/m2 that are white at EV 0. */
+static const double white_at_zero = 78 / (0.65 * 100);
+
 static enum result write_png(const char *path, const struct picture_files *files,
                              const struct picture *picture, struct error *error) {
-  double white = files->exposure;
+  double white = white_at_zero / files->luminance * exp2(files->exposure);
   enum result result = RESULT_OK;
-  if (!(white > 0)) {
+  if (!files->exposed) {
     result = preview_exposure(picture, &white, error);
     if (result == RESULT_OK)
-      cli_note("%s: note: radiance %.4g is white; --exposure %.4g keeps it", path, white, white);
+      cli_note("%s: note: radiance %.4g is white; --exposure %.4f keeps it", path, white,
+               log2(white * files->luminance / white_at_zero));
   }
   return result == RESULT_OK ? preview_write(path, picture, white, cli_command_line(), error)
                              : result;

@@ -10,7 +10,9 @@
 struct picture_files {
   const char *output;  /* .exr or .png; "-": EXR on standard output */
   const char *preview; /* a PNG; NULL: none */
-  double exposure;     /* radiance that is white in PNGs; 0: by the picture, and told in a note */
+  bool exposed;        /* white in PNGs is by `exposure`; else by the picture, and told in a note */
+  double exposure;     /* EV at ISO 100: 78/(0.65 * 100) * 2^EV cd/m2 is white (ISO 12232) */
+  double luminance;    /* of 1 in the picture, cd/m2 */
 };
 
 /* Does the path have a name and this ending? */

@@ -8,6 +8,27 @@
 #include "cli/cli.h"
 #include "shadow/occlusion.h"
 
+/* Lights of several units add up to none, and a Scale of lumens may be meant otherwise. */
+static void tell_brightness(const struct world *world) {
+  const char *unit = light_unit(&world->lights[0]);
+  for (int k = 0; k < world->light_count; ++k) {
+    const struct light *light = &world->lights[k];
+    if (light->resized)
+      cli_note("%s: note: lumens= with scale=%g makes it a lamp of another size; where scale "
+               "converts units, add metres=M, of the scene's unit",
+               light->path, light->scale);
+    if (strcmp(light_unit(light), unit) != 0)
+      cli_note("%s: note: its radiance is in \"%s\", that of %s in \"%s\"; with lumens= all "
+               "are in cd/m2",
+               light->path, light_unit(light), world->lights[0].path, unit);
+  }
+}
+
+double world_luminance(const struct world *world) {
+  static const double watt_lumens = 179;
+  return strcmp(light_unit(&world->lights[0]), "W/(sr m2)") ? 1 : watt_lumens;
+}
+
 enum result world_load_lights(struct world *world, const char *const *outputs, int count,
                               struct error *error) {
   const struct options *options = &world->options;
@@ -26,6 +47,7 @@ enum result world_load_lights(struct world *world, const char *const *outputs, i
     result = output_check(outputs, count, inputs, options->light_count + 1, error);
   }
   free(inputs);
+  if (result == RESULT_OK) tell_brightness(world);
   return result;
 }
 

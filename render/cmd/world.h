@@ -26,6 +26,10 @@ struct world {
 enum result world_load_lights(struct world *world, const char *const *outputs, int count,
                               struct error *error);
 
+/* The luminance, in cd/m2, of 1 in pictures: a watt of light counts 179 lm, as in Radiance, and
+ * where the lights' unit is relative, 1 is 1 cd/m2. */
+double world_luminance(const struct world *world);
+
 /* What the options' method needs for so many receivers (gather_prepare). */
 enum result world_prepare(struct world *world, uint64_t receivers, struct error *error);
 

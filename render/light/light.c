@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/kelvin.h"
 #include "base/vector.h"
 #include "file/slab_file.h"
 #include "light/light_text.h"
@@ -95,7 +96,6 @@ static enum result place(const char *text, const struct light_text *where, struc
   for (int row = 0; row < 3; ++row)
     for (int c = 0; c < 3; ++c) light->matrix[row][c] *= where->scale;
   light->scale = scale * where->scale;
-  memcpy(light->gain, where->gain, sizeof light->gain);
   return result;
 }
 
@@ -166,6 +166,34 @@ static enum result set_page(const char *text, const struct light *light, struct 
   return result_fail(error, RESULT_BAD, "--light %s: placed beyond what numbers can hold", text);
 }
 
+/* Scales between these are thought to be meant as sizes. */
+static const double least_resize = 0.1, most_resize = 10;
+
+static enum result set_gain(const struct light_text *where, struct light *light,
+                            struct error *error) {
+  double colour[3] = {1, 1, 1}, flux[3], luminance = 0;
+  if (where->kelvin > 0) kelvin_colour(where->kelvin, colour);
+  for (int c = 0; c < 3; ++c) light->gain[c] = where->gain[c] * colour[c];
+  if (!(where->lumens > 0)) return RESULT_OK;
+  for (int page = 0; page < light->count; ++page) {
+    enum result result = slab_flux(&light->pages[page].slab, flux, error);
+    if (result != RESULT_OK) return result;
+    luminance +=
+        0.2126 * flux[0] * colour[0] + 0.7152 * flux[1] * colour[1] + 0.0722 * flux[2] * colour[2];
+  }
+  double metres = where->metres > 0 ? where->metres : light->pages[0].slab.metres_per_unit;
+  double factor = where->lumens / (luminance * pow(light->scale * metres, 2));
+  light->measured = true;
+  light->resized =
+      !(where->metres > 0) && (light->scale < least_resize || light->scale > most_resize);
+  for (int c = 0; c < 3; ++c) light->gain[c] *= factor;
+  if (luminance > 0 && isfinite(factor)) return RESULT_OK;
+  return result_fail(error, RESULT_BAD,
+                     "%s: it gives no light, so that no gain makes %g lumens of it; leave out "
+                     "lumens=",
+                     light->path, where->lumens);
+}
+
 enum result light_load(const char *text, struct light *light, struct error *error) {
   struct light_text where;
   struct slab *slabs = NULL;
@@ -187,6 +215,7 @@ enum result light_load(const char *text, struct light *light, struct error *erro
   if (result == RESULT_OK) result = place(text, &where, light, error);
   for (int page = 0; page < light->count && result == RESULT_OK; ++page)
     result = set_page(text, light, &light->pages[page], error);
+  if (result == RESULT_OK) result = set_gain(&where, light, error);
   if (result != RESULT_OK) light_free(light);
   return result;
 }
@@ -197,6 +226,10 @@ void light_free(struct light *light) {
   free(light->pages);
   free(light->path);
   *light = (struct light){0};
+}
+
+const char *light_unit(const struct light *light) {
+  return light->measured ? "cd/m2" : light->pages[0].slab.radiance_unit;
 }
 
 int light_pages(const struct light *lights, int count) {

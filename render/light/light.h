@@ -1,9 +1,11 @@
 /* light.h - a canned light in a scene: its slabs, and where they are.
  *
  * `LIGHT` of the command line: FILE [at=X,Y,Z] [toward=X,Y,Z] [up=X,Y,Z] [matrix=12 numbers]
- * [scale=S] [gain=G or R,G,B]. The lamp's point p goes to at + scale R p, where R turns the first
- * page's normal to toward - at and its v towards up as nearly as it can; `matrix` is in
- * POV-Ray's order and excludes at, toward and up. Scaling keeps radiance; gain multiplies it.
+ * [scale=S] [gain=G or R,G,B or lumens=L] [kelvin=K] [metres=M]. The lamp's point p goes to at +
+ * scale R p, where R turns the first page's normal to toward - at and its v towards up as nearly as
+ * it can; `matrix` is in POV-Ray's order and excludes at, toward and up. Scaling keeps radiance;
+ * gain multiplies it, and so does the colour of a black body of K kelvin. With lumens the gain is
+ * what makes the flux of the placed lamp L, in cd/m2: M is the scene's unit, by default the slab's.
  *
  * Only similarities (turning, mirroring, moving, one scale) leave a slab a slab: other
  * matrices are refused. */
@@ -42,6 +44,8 @@ struct light {
   struct light_page *pages; /* owned */
   double gain[3];
   double scale;
+  bool measured;       /* by lumens: radiance is in cd/m2 */
+  bool resized;        /* measured, its scale is far from 1, and nothing is said of units */
   double matrix[4][3]; /* lamp to scene, POV-Ray's order: images of x, y, z; translation */
 };
 
@@ -60,6 +64,9 @@ bool light_move(struct light *light, const double matrix[4][3]);
  * they have lost their digits, and processors are slow with them. */
 enum result light_page_set_samples(struct light_page *page, struct error *error);
 void light_page_free(struct light_page *page);
+
+/* The unit of the placed lamp's radiance, as slab.h's radiance_unit. */
+const char *light_unit(const struct light *light);
 
 /* The corners of the page's aperture, in scene space. */
 void light_page_corners(const struct light_page *page, double corners[4][3]);

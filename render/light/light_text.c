@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/kelvin.h"
 #include "base/key_values.h"
 #include "base/numbers.h"
 
@@ -15,6 +16,24 @@ static const char *end_of_path(const char *text) {
     end = word + strcspn(word, NUMBERS_BLANKS);
   }
   return end;
+}
+
+/* What is said of brightness and colour. `keys` are those of lumens, kelvin, metres and gain. */
+static enum result check_brightness(const char *what, const struct light_text *light,
+                                    const struct key_value keys[4], struct error *error) {
+  if (keys[0].seen && !(light->lumens > 0))
+    return result_fail(error, RESULT_BAD, "%s: lumens=%g, must be positive", what, light->lumens);
+  if (keys[1].seen && !(light->kelvin >= KELVIN_LEAST && light->kelvin <= KELVIN_MOST))
+    return result_fail(error, RESULT_BAD, "%s: kelvin=%g, must be from %d to %d", what,
+                       light->kelvin, KELVIN_LEAST, KELVIN_MOST);
+  if (keys[2].seen && !(light->metres > 0))
+    return result_fail(error, RESULT_BAD, "%s: metres=%g, must be positive", what, light->metres);
+  if (keys[2].seen && !keys[0].seen)
+    return result_fail(error, RESULT_BAD, "%s: metres= is the unit for lumens=, which is missing",
+                       what);
+  if (keys[0].seen && keys[3].seen)
+    return result_fail(error, RESULT_BAD, "%s: lumens= and gain=: give one of them", what);
+  return RESULT_OK;
 }
 
 static enum result check(const char *what, const struct light_text *light, struct error *error) {
@@ -32,6 +51,9 @@ enum result light_text_parse(const char *text, struct light_text *light, struct 
                              {"up=X,Y,Z", 3, light->up, false, false},
                              {"matrix=12 numbers", 12, light->matrix[0], false, false},
                              {"scale=S", 1, &light->scale, false, false},
+                             {"lumens=L", 1, &light->lumens, false, false},
+                             {"kelvin=K", 1, &light->kelvin, false, false},
+                             {"metres=M", 1, &light->metres, false, false},
                              {"gain=G|R,G,B", 3, light->gain, false, true}};
   char what[256];
   snprintf(what, sizeof what, "--light %s", text);
@@ -46,6 +68,7 @@ enum result light_text_parse(const char *text, struct light_text *light, struct 
   light->has_up = keys[2].seen;
   light->has_matrix = keys[3].seen;
   if (result == RESULT_OK) result = check(what, light, error);
+  if (result == RESULT_OK) result = check_brightness(what, light, keys + 5, error);
   if (result != RESULT_OK) light_text_free(light);
   return result;
 }

@@ -3,6 +3,8 @@
  * sum the irradiance on a closed box that stands on the aperture. Prints the table of
  * RESULTS.md. */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "chain.h"
 #include "oracle/lambert.h"
@@ -12,11 +14,12 @@
 static const double opening[2] = {10, 8}, glow[2] = {8, 6}, depth = 10, window = 1;
 static const double radiance[3] = {50, 35, 20};
 
-static const char lamp[] = "#version 3.7;\n#include \"canned.inc\"\n"
-                           "Canned_Lamp(\"test_lamp\")\nCanned_Needs(\"\")\n"
-                           "Canned_Slab(<3, 20, -5>, 10*x, 8*z, -y, <-1, 1, -1, 1>, 0)\n"
-                           "box { <-4, 10, -3>, <4, 11, 3> translate <3, 20, -5>\n"
-                           "  pigment { rgb 1 } finish { emission rgb <50, 35, 20> diffuse 0 } }\n";
+static const char lamp[] =
+    "#version 3.7;\n#include \"canned.inc\"\n"
+    "Canned_Lamp(\"test_lamp\")\nCanned_Needs(\"\")\nCanned_Metres_Per_Unit(0.01)\n"
+    "Canned_Slab(<3, 20, -5>, 10*x, 8*z, -y, <-1, 1, -1, 1>, 0)\n"
+    "box { <-4, 10, -3>, <4, 11, 3> translate <3, 20, -5>\n"
+    "  pigment { rgb 1 } finish { emission rgb <50, 35, 20> diffuse 0 } }\n";
 
 /* What the opening gets from the glow: the exchange of two parallel rectangles. */
 static double known_flux(void) {
@@ -74,7 +77,9 @@ static void write_receivers(void) {
 }
 
 static void flux_by_method(const char *method, double flux[3]) {
-  chain_must("\"$RENDERSLAB\" irradiance -q --light lamp.exr --method %s <receivers >sums", method);
+  chain_must(
+      "\"$RENDERSLAB\" irradiance -q --light \"lamp.exr $BRIGHT\" --method %s <receivers >sums",
+      method);
   FILE *file = fopen(chain_path("sums"), "r");
   assert_non_null(file);
   flux[0] = flux[1] = flux[2] = 0;
@@ -167,24 +172,48 @@ TEST(test_methods) {
   }
 }
 
-TEST(test_povray) {
-  static const struct {
-    const char *what, *options, *declare;
-    double most;
-  } rows[] = {
-      {"in POV-Ray, sheet of 8x8 lights", "", "", 0.05},
-      {"in POV-Ray, sheet of 2x2 lights", "", "#declare Test_Lamp_Lights = 2;\n", 0.1},
-      {"in POV-Ray, cluster of 8 lights", "--mode cluster --lights 8", "", 0.5},
-      {"in POV-Ray, far field", "--mode point", "", 0.1},
-  };
+static double luminance(const double rgb[3]) {
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/* What 800 lumens make of the flux of a lamp in centimetres. */
+static double by_lumens(const double flux[3]) {
+  return 800 / (1e-4 * luminance(flux));
+}
+
+TEST(test_lumens) {
   double right[3], flux[3];
   flux_of_slab("lamp.exr", right);
+  assert_int_equal(setenv("BRIGHT", "lumens=800", 1), 0);
+  flux_by_method("cut", flux);
+  unsetenv("BRIGHT");
+  double factor = by_lumens(right);
+  for (int c = 0; c < 3; ++c) right[c] *= factor;
+  expect("on the box, lumens=800", flux, right, 0.1);
+}
+
+TEST(test_povray) {
+  static const struct {
+    const char *what, *options, *declare, *macro;
+    double most;
+  } rows[] = {
+      {"in POV-Ray, sheet of 8x8 lights", "", "", "Canned(1, 1)", 0.05},
+      {"in POV-Ray, sheet of 2x2 lights, 800 lumens", "", "#declare Test_Lamp_Lights = 2;\n",
+       "Canned_Lumens(1, 800)", 0.1},
+      {"in POV-Ray, cluster of 8 lights, 800 lumens", "--mode cluster --lights 8", "",
+       "Canned_Lumens(1, 800)", 0.5},
+      {"in POV-Ray, far field, 800 lumens", "--mode point", "", "Canned_Lumens(1, 800)", 0.1},
+  };
+  double plain[3], flux[3];
+  flux_of_slab("lamp.exr", plain);
   for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+    double factor = strstr(rows[k].macro, "Lumens") ? by_lumens(plain) : 1;
+    const double right[3] = {plain[0] * factor, plain[1] * factor, plain[2] * factor};
     char sdl[256];
     chain_must("cp lamp.exr slab.exr && \"$BAKESLAB\" include slab.exr -o light.inc %s",
                rows[k].options);
-    snprintf(sdl, sizeof sdl, "%s#include \"light.inc\"\nobject { Test_Lamp_Canned(1, 1) }\n",
-             rows[k].declare);
+    snprintf(sdl, sizeof sdl, "%s#include \"light.inc\"\nobject { Test_Lamp_%s }\n",
+             rows[k].declare, rows[k].macro);
     flux_by_povray(sdl, flux);
     expect(rows[k].what, flux, right, rows[k].most);
   }

@@ -62,8 +62,29 @@ TEST(test_macro_arguments) {
   make_lamp();
   chain_says(&slab, CHAIN_LIT("0, 1"), 1, "Test_Lamp_Canned: Scale is 0.0000, must be positive");
   chain_says(&slab, CHAIN_LIT("-1, 1"), 1, "Test_Lamp_Canned: Scale is -1.0000, must be positive");
+  chain_says(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Lumens(1, 0) }", 1,
+             "Test_Lamp_Canned_Lumens: Lumens is 0.0000, must be positive");
   chain_says(&slab, "#declare Test_Lamp_Lights = 0;\n" CHAIN_LIT("1, 1"), 1,
              "Test_Lamp_Canned: Test_Lamp_Lights is 0.00, must be at least 1");
+}
+
+/* A twentieth of the lamp in units of 20 m is as large as the lamp itself; in its own units it is
+ * a smaller one, which is told. */
+TEST(test_lumens) {
+  static const char sdl[] = "#declare Test_Lamp_Scene_Metres = 20;\n#include \"lamp.inc\"\n"
+                            "object { Test_Lamp_Canned_Lumens(0.05, 300) }";
+  double flux[3];
+  make_lamp();
+  slab_flux(&slab, flux, NULL);
+  double gain = 1 / (0.2126 * flux[0] + 0.7152 * flux[1] + 0.0722 * flux[2]);
+  struct chain_lamp lamp = chain_lamp_of(&slab, 1, 0.05);
+  struct chain_plane plane = chain_facing(&lamp, 0, 1);
+  lamp.gain = 300 * gain;
+  assert_true(chain_error(&lamp, 1, &plane, 1, sdl) < 5e-4);
+  assert_null(strstr(chain_log(), "is a smaller or larger lamp"));
+  lamp.gain *= 400;
+  assert_true(chain_error(&lamp, 1, &plane, 1, strchr(sdl, '\n')) < 5e-4);
+  assert_non_null(strstr(chain_log(), "Scale 0.050000 is a smaller or larger lamp"));
 }
 
 /* An image that is missing, elsewhere, or another lamp's. */

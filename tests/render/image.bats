@@ -119,22 +119,26 @@ count() { sed -n "s/.*\"$1\": \([0-9]*\).*/\1/p" "$2"; }
 }
 
 @test "the preview: exposure, sRGB, and what made it" {
-  "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 --exposure 0.5 \
+  "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 --exposure -1 \
     --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125 --preview sky.png
-  [ "$(mean_of sky.png --mulc 255)" = 255,188,137 ]
+  # 1.2 cd/m2 are white at EV 0, half of that at -1: 0.5/0.6 is 235 of sRGB's 255.
+  [ "$(mean_of sky.png --mulc 255)" = 235,173,126 ]
   grep -aq 'Comment.*renderslab image floor.obj' sky.png
-  grep -aq 'Exposure.*0.5 is white' sky.png
+  grep -aq 'Exposure.*0.6 is white' sky.png
   oiiotool --info -v sky.exr | grep -q 'renderslab image floor.obj'
   # The default leaves 99 % of the pixels below 0.9, and is told.
   run -0 --separate-stderr "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.exr --size 9x3 \
     --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125 --preview sky.png
-  [ "$stderr" = "renderslab: sky.png: note: radiance 0.5556 is white; --exposure 0.5556 keeps it" ]
+  [ "$stderr" = "renderslab: sky.png: note: radiance 0.5556 is white; --exposure -1.1110 keeps it" ]
   [ "$(mean_of sky.png --mulc 255)" = 243,179,130 ]
+  "$RENDERSLAB" image floor.obj --light letter_f.tif -o same.exr --size 9x3 -q --exposure auto \
+    --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125 --preview same.png
+  idiff -fail 0 -warn 0 sky.png same.png
 }
 
 @test "-o x.png is the preview itself" {
-  picture a.exr --preview a.png --exposure 0.01
-  picture b.png --exposure 0.01
+  picture a.exr --preview a.png --exposure -6
+  picture b.png --exposure -6
   idiff -fail 0 -warn 0 a.png b.png
   [ "$(head -c 8 b.png)" = "$(head -c 8 a.png)" ]
 }
@@ -244,7 +248,8 @@ rejects() { harmless "$1" "$RENDERSLAB" image "${@:2}"; }
   done
   rejects camera floor.obj --light letter_f.tif -o a.exr
   rejects samples "${good[@]}" -o a.exr --samples 0
-  rejects exposure "${good[@]}" -o a.exr --exposure -1
+  rejects 'exposure 1,2: must be auto or a number' "${good[@]}" -o a.exr --exposure 1,2
+  rejects exposure "${good[@]}" -o a.exr --exposure 101
   rejects background "${good[@]}" -o a.exr --background 1,2
   rejects output "${good[@]}"
   rejects .exr "${good[@]}" -o a.jpg

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/kelvin.h"
 #include "import/photometric/eulumdat.h"
 #include "import/photometric/ies.h"
-#include "import/photometric/kelvin.h"
 #include "import/photometric/photometry_slab.h"
 
 static const double default_tolerance = 0.02;

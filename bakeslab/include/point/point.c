@@ -328,6 +328,7 @@ static enum result finish(struct point *point, const double flux[3], struct erro
         include_check_colour(point->intensity[c] / (2 * M_PI * fade * fade), -1, error);
     if (result != RESULT_OK) return result;
   }
+  point->lamp.flux = include_luminance(point->flux);
   choose_check(point, &point->lamp.check);
   size_t bytes = (size_t)picture->width * (size_t)picture->height * 3 * sizeof *picture->rgb;
   uint64_t hash = include_hash(include_hash_start, picture->rgb, bytes);

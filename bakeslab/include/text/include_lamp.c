@@ -9,6 +9,10 @@ const uint64_t include_hash_start = 14695981039346656037u;
 /* POV-Ray takes light colours up to here. */
 static const double largest_colour = 1e37;
 
+double include_luminance(const double rgb[3]) {
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
 double include_peak(const struct slab *slab) {
   double peak = 0;
   size_t values = 3 * slab_sample_count(slab);
@@ -43,7 +47,12 @@ enum result include_lit_pages(const struct slab *slabs, int count, struct includ
   for (int k = 0; k < count; ++k) {
     enum result result = check_radiance(&slabs[k], k, error);
     if (result != RESULT_OK) return result;
-    if (include_peak(&slabs[k]) > 0) (*lit)[(*lit_count)++] = &slabs[k];
+    if (!(include_peak(&slabs[k]) > 0)) continue;
+    (*lit)[(*lit_count)++] = &slabs[k];
+    double flux[3];
+    result = slab_flux(&slabs[k], flux, error);
+    if (result != RESULT_OK) return result;
+    lamp->flux += include_luminance(flux);
   }
   if (!*lit_count)
     return result_fail(error, RESULT_BAD, "all radiance is zero: the lamp gives no light");

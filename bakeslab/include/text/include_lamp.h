@@ -18,16 +18,20 @@ struct include_check {
 
 struct include_lamp {
   struct slab frame;          /* the first page with light, without samples or text */
+  double flux;                /* of all pages, its luminance, with lengths in lamp units */
   int black_pages;            /* pages left out because they hold no light */
   uint64_t stamp;             /* hash of all that the include says of its lights */
   struct include_check check; /* if it has an image */
 };
 
 /* The pages with light, in order: pointers into `slabs`, in an array that the caller frees;
- * sets frame and black_pages. Refuses negative radiance, which no light of POV-Ray's can give,
- * and a lamp of which all pages are black. */
+ * sets frame, flux and black_pages. Refuses negative radiance, which no light of POV-Ray's can
+ * give, and a lamp of which all pages are black. */
 enum result include_lit_pages(const struct slab *slabs, int count, struct include_lamp *lamp,
                               const struct slab ***lit, int *lit_count, struct error *error);
+
+/* Luminance of linear Rec. 709. */
+double include_luminance(const double rgb[3]);
 
 /* Largest value of any channel; 0 for a page without light. */
 double include_peak(const struct slab *slab);

@@ -1,6 +1,8 @@
 #include "include/text/include_text.h"
 
 #include <inttypes.h>
+#include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/sdl.h"
@@ -13,6 +15,32 @@ extern const char include_head_inc[], include_usage_inc[], include_units_inc[], 
 /* POV-Ray's objects end 1e10 units from the origin. */
 static const double most_width = 1e9;
 
+/* Lumens of a watt of white light, as in Radiance and in export's files. */
+static const double watt_lumens = 179;
+
+/* Where things are for which the header tells an exposure, in aperture widths. */
+static const double exposed_at = 4;
+
+/* What the header says of the lamp's brightness. */
+struct brightness {
+  double lumens;   /* 0: its unit is relative */
+  double away;     /* lamp units */
+  double start;    /* Gain */
+  double exposure; /* EV at ISO 100, by which 1.2 * 2^EV cd/m2 is white */
+};
+
+/* A matt surface shows E/pi, straight before a matt lamp twice the mean over the half sphere. */
+static struct brightness find_brightness(const struct include_lamp *lamp) {
+  const struct slab *frame = &lamp->frame;
+  bool watts = !strcmp(frame->radiance_unit, "W/(sr m2)");
+  bool relative = !watts && strcmp(frame->radiance_unit, "cd/m2") != 0;
+  double away = exposed_at * plane_width(frame), unit = watts ? watt_lumens : 1;
+  double shows = 2 * lamp->flux / (2 * M_PI * away * away) / M_PI;
+  double area = frame->metres_per_unit * frame->metres_per_unit;
+  return (struct brightness){relative ? 0 : lamp->flux * area * unit, away, 1 / shows,
+                             log2(shows * unit / 1.2)};
+}
+
 void include_print(const char *template, const struct include_text *text,
                    const struct include_lamp *lamp, const struct include_value *values, FILE *out) {
   static const char *const channels[3] = {"red", "green", "blue"};
@@ -21,6 +49,8 @@ void include_print(const char *template, const struct include_text *text,
   uint64_t hash = housing ? include_hash(lamp->stamp, housing, strlen(housing)) : lamp->stamp;
   char stamp[17];
   snprintf(stamp, sizeof stamp, "%016" PRIx64, hash);
+  const struct brightness bright = find_brightness(lamp);
+  const bool watts = !strcmp(lamp->frame.radiance_unit, "W/(sr m2)");
   const struct include_value shared[] = {
       {"head", .part = include_head_inc},
       {"usage", .part = include_usage_inc},
@@ -45,6 +75,12 @@ void include_print(const char *template, const struct include_text *text,
                                                       : "."},
       {"metres", .number = lamp->frame.metres_per_unit},
       {"radiance_unit", .text = lamp->frame.radiance_unit},
+      {"flux_of_one", .number = lamp->flux},
+      {"lumens", .number = bright.lumens},
+      {"counted", .text = watts ? ", if a watt of its light is 179 lm" : ""},
+      {"start", .number = bright.start},
+      {"away", .number = bright.away},
+      {"exposure", .number = bright.exposure},
       {"black_pages", .number = lamp->black_pages},
       {"stamp", .text = stamp},
       {"check", .numbers = check->at},

@@ -1,4 +1,4 @@
-#include "import/photometric/kelvin.h"
+#include "base/kelvin.h"
 
 #include <math.h>
 
