@@ -15,7 +15,7 @@
 enum { FINEST = 6, LEAST_POINTS = 32 };
 static const double most_work = 2e8; /* samples that a grid may cost */
 static const double first_plane_step = 15, first_step = 5, radian = M_PI / 180;
-static const double watt_lumens = 179, told_distance = 4;
+static const double told_distance = 4;
 
 /* A page of which intensities are asked. */
 struct page {
@@ -73,7 +73,7 @@ static double intensity(const struct lamp *lamp, double c, double gamma) {
 
 static enum result open_page(const struct slab *slab, struct page *page, struct error *error) {
   const int one[SLAB_AXES] = {1, 1, slab->samples[SLAB_S], slab->samples[SLAB_T]};
-  double unit = strcmp(slab->radiance_unit, "W/(sr m2)") ? 1 : watt_lumens;
+  double unit = strcmp(slab->radiance_unit, "W/(sr m2)") ? 1 : SLAB_WATT_LUMENS;
   *page =
       (struct page){.slab = slab, .scale = unit * slab->metres_per_unit * slab->metres_per_unit};
   for (int k = 0; k < 2; ++k) page->points[k] = (int)fmax(2 * slab->samples[k], LEAST_POINTS);

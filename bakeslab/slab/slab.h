@@ -87,6 +87,10 @@ void slab_lookup(const struct slab *slab, double a, double b, double s, double t
 bool slab_ray(const struct slab *slab, const double origin[3], const double direction[3],
               double abst[4]);
 
+/* Lumens that a watt of light counts where watts become lumens: white light of even power over
+ * the visible spectrum, as Radiance has it. */
+enum { SLAB_WATT_LUMENS = 179 };
+
 /* Rec. 709 luminance of a sample. */
 static inline double slab_luminance(const float rgb[3]) {
   return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];

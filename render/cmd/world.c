@@ -25,8 +25,7 @@ static void tell_brightness(const struct world *world) {
 }
 
 double world_luminance(const struct world *world) {
-  static const double watt_lumens = 179;
-  return strcmp(light_unit(&world->lights[0]), "W/(sr m2)") ? 1 : watt_lumens;
+  return strcmp(light_unit(&world->lights[0]), "W/(sr m2)") ? 1 : SLAB_WATT_LUMENS;
 }
 
 enum result world_load_lights(struct world *world, const char *const *outputs, int count,

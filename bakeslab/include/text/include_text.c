@@ -15,9 +15,6 @@ extern const char include_head_inc[], include_usage_inc[], include_units_inc[], 
 /* POV-Ray's objects end 1e10 units from the origin. */
 static const double most_width = 1e9;
 
-/* Lumens of a watt of white light, as in Radiance and in export's files. */
-static const double watt_lumens = 179;
-
 /* Where things are for which the header tells an exposure, in aperture widths. */
 static const double exposed_at = 4;
 
@@ -34,7 +31,7 @@ static struct brightness find_brightness(const struct include_lamp *lamp) {
   const struct slab *frame = &lamp->frame;
   bool watts = !strcmp(frame->radiance_unit, "W/(sr m2)");
   bool relative = !watts && strcmp(frame->radiance_unit, "cd/m2") != 0;
-  double away = exposed_at * plane_width(frame), unit = watts ? watt_lumens : 1;
+  double away = exposed_at * plane_width(frame), unit = watts ? SLAB_WATT_LUMENS : 1;
   double shows = 2 * lamp->flux / (2 * M_PI * away * away) / M_PI;
   double area = frame->metres_per_unit * frame->metres_per_unit;
   return (struct brightness){relative ? 0 : lamp->flux * area * unit, away, 1 / shows,
