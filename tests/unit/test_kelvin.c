@@ -14,7 +14,8 @@ static double lobe(double nm, double at, double below, double above) {
 /* u', v' of Planck's radiator. */
 static void planck(double kelvin, double uv[2]) {
   double x = 0, y = 0, z = 0;
-  for (double nm = 360; nm <= 830; nm += 1) {
+  for (int wave = 360; wave <= 830; ++wave) {
+    double nm = wave;
     double power = pow(nm * 1e-3, -5) / expm1(1.438776877e7 / (nm * kelvin));
     x += power * (0.362 * lobe(nm, 442, 0.0624, 0.0374) + 1.056 * lobe(nm, 599.8, 0.0264, 0.0323) -
                   0.065 * lobe(nm, 501.1, 0.0490, 0.0382));
