@@ -4,12 +4,14 @@
  *    needs, the files that it reads, how bright the lamp is, and which cameras work.
  * 2. Small bakes (probe.h) decide what neither the user nor the script does: effects, windows, the
  *    number of samples.
- * 3. Rounds of batches (bake_rounds.h): each sample is the mean of the radiance over its 4D cell,
+ * 3. Where the script has channels (bake_channels.h), the pages are there once for each: its bulbs
+ *    alone light them.
+ * 4. Rounds of batches (bake_rounds.h): each sample is the mean of the radiance over its 4D cell,
  *    by pairs of antithetic rays (Hammersley and Morton 1956) on a Sobol sequence (Joe and Kuo
  *    2008), as many as the tile's noise calls for (Neyman 1934).
- * 4. Samples are the sums over their rays; what they say of the slab, the balance of its light
+ * 5. Samples are the sums over their rays; what they say of the slab, the balance of its light
  *    and its own error, goes into the report.
- * 5. Write the slab, with its provenance and the lamp's housing, and drop the store.
+ * 6. Write the slab, with its provenance and the lamp's housing, and drop the store.
  *
  * The slab is that of Heidrich, Kautz, Slusallek and Seidel, "Canned Lightsources", 1998, section
  * 3. J. M. Hammersley and K. W. Morton, "A new Monte Carlo technique: antithetic variates",
@@ -23,6 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bake/bake_channels.h"
 #include "bake/bake_estimate.h"
 #include "bake/bake_provenance.h"
 #include "bake/bake_warnings.h"
@@ -42,6 +45,8 @@ struct bake_state {
   struct povray povray;
   struct lamp_source source;
   struct lamp lamp;
+  struct slab *pages; /* the slab's: of each channel those that the lamp declares; owned */
+  int page_count;
   struct bake_store store;
   struct bake_rounds rounds;
   struct bake_energy_bakes energy;
@@ -169,6 +174,21 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
   return result;
 }
 
+/* The same work with the pages of all channels. The lamp as a whole is what small bakes look at,
+ * before and after. */
+static enum result part_channels(const struct bake_work *work, struct bake_state *state,
+                                 struct lamp *lit, struct bake_work *channels,
+                                 struct error *error) {
+  enum result result = bake_channels_pages(&state->lamp, &state->pages, &state->page_count, error);
+  *lit = state->lamp;
+  lit->slabs = state->pages;
+  lit->slab_count = state->page_count;
+  *channels = *work;
+  channels->lamp = lit;
+  channels->slabs = state->pages;
+  return result;
+}
+
 /* What it is going to cost: only for people who wait for it. */
 static enum result announce(const struct bake_work *work, const struct bake_state *state,
                             struct bake_report *report, struct error *error) {
@@ -189,7 +209,7 @@ static enum result announce(const struct bake_work *work, const struct bake_stat
   return RESULT_OK;
 }
 
-/* ---- 4. What the samples say ---- */
+/* ---- 5. What the samples say ---- */
 
 /* A flux that is known less well is told, relative standard error. */
 static const double most_flux_noise = 0.05;
@@ -220,13 +240,14 @@ static void warn_of_resolution(const struct bake_options *options, const struct 
 
 static enum result assess(const struct bake_work *work, struct bake_state *state,
                           struct bake_report *report, struct error *error) {
-  const struct slab *pages = state->lamp.slabs;
-  enum result result = bake_warn_of_darkness(work, pages, &report->warnings, error);
+  const struct slab *pages = state->pages;
+  enum result result =
+      bake_warn_of_darkness(work, pages, state->page_count, &report->warnings, error);
   warn_of_noise(&state->origin.noise, &report->warnings);
   if (report->photons_lost[0])
     warnings_add(&report->warnings, "light that meets glass is lost: %s; " BAKE_PHOTONS_ADVICE,
                  report->photons_lost);
-  for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n) {
+  for (int n = 0; n < state->page_count && result == RESULT_OK; ++n) {
     struct slab_sampling sampling;
     struct slab_accuracy accuracy = {0};
     result = slab_json_sampling(&pages[n], &sampling, error);
@@ -237,12 +258,12 @@ static enum result assess(const struct bake_work *work, struct bake_state *state
   }
   warn_of_resolution(work->options, report, &pages[0], &report->warnings);
   if (result == RESULT_OK)
-    result = bake_energy(work, &state->origin.noise, &state->energy, &state->origin.energy, report,
-                         error);
+    result = bake_energy(work, pages, state->page_count, &state->origin.noise, &state->energy,
+                         &state->origin.energy, report, error);
   return result;
 }
 
-/* ---- 5. The slab ---- */
+/* ---- 6. The slab ---- */
 
 /* The lamp's visible housing as SDL, where the script declares one that stands alone. */
 static enum result find_housing(const struct bake_work *work, struct bake_report *report,
@@ -278,8 +299,8 @@ static enum result record(const struct bake_work *work, const struct bake_state 
                           const struct bake_report *report, struct error *error) {
   char *text = NULL;
   enum result result = bake_provenance(work, &state->origin, &report->warnings, &text, error);
-  for (int n = 0; n < state->lamp.slab_count && result == RESULT_OK; ++n)
-    result = slab_json_set(&state->lamp.slabs[n], "provenance", text, error);
+  for (int n = 0; n < state->page_count && result == RESULT_OK; ++n)
+    result = slab_json_set(&state->pages[n], "provenance", text, error);
   free(text);
   return result;
 }
@@ -297,8 +318,8 @@ static enum result be_strict(const struct bake_work *work, const struct bake_rep
 static enum result write_slab(const struct bake_work *work, struct bake_state *state,
                               struct bake_report *report, struct error *error) {
   const struct bake_options *options = work->options;
-  struct slab *pages = state->lamp.slabs;
-  int count = state->lamp.slab_count;
+  struct slab *pages = state->pages;
+  int count = state->page_count;
   bake_sum_noise(state->rounds.sum, work->look.gain, work->look.offsets, &state->origin.noise);
   enum result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
   if (result == RESULT_OK) result = find_housing(work, report, &state->origin.housing, error);
@@ -337,7 +358,11 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
     result = bake_store_open(options->output, options->shards > 1, &state.store, error);
   if (result == RESULT_OK) result = prepare(&work, &state, report, error);
   if (result == RESULT_OK) result = be_strict(&work, report, error);
-  if (result == RESULT_OK) result = announce(&work, &state, report, error);
+  if (result == RESULT_OK) result = bake_refuse_stray_light(&work, error);
+  struct bake_work channels;
+  struct lamp lit;
+  if (result == RESULT_OK) result = part_channels(&work, &state, &lit, &channels, error);
+  if (result == RESULT_OK) result = announce(&channels, &state, report, error);
   /* Refused before it began, it leaves nothing that was not there. */
   bool refused = result == RESULT_BAD && state.store.fresh;
   /* A shard leaves the slab to the run without --shard. */
@@ -345,7 +370,7 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   if (result == RESULT_OK && report->assembled)
     result = bake_energy_start(&work, &state.energy, error);
   if (result == RESULT_OK && !options->dry_run)
-    result = bake_rounds_run(&work, "bake", &state.rounds, report, error);
+    result = bake_rounds_run(&channels, "bake", &state.rounds, report, error);
   report->highlights = state.lamp.reads.highlights;
   /* Before the slab: with an old rule, make would take the new slab for up to date. */
   if (result == RESULT_OK && report->assembled && options->depend)
@@ -356,6 +381,7 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   bake_store_close(&state.store, refused || (result == RESULT_OK && report->assembled));
   bake_rounds_free(&state.rounds);
   free(state.origin.housing);
+  slab_file_free_all(state.pages, state.page_count);
   lamp_free(&state.lamp);
   lamp_source_free(&state.source);
   return result;

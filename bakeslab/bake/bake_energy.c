@@ -271,13 +271,14 @@ enum result bake_energy_cost(const struct bake_work *work, int *bakes, double *r
   return result;
 }
 
-enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,
-                        struct bake_energy_bakes *bakes, struct bake_energy *energy,
-                        struct bake_report *report, struct error *error) {
+enum result bake_energy(const struct bake_work *work, const struct slab *pages, int count,
+                        const struct bake_noise *noise, struct bake_energy_bakes *bakes,
+                        struct bake_energy *energy, struct bake_report *report,
+                        struct error *error) {
   const struct lamp *lamp = work->lamp;
   *energy = (struct bake_energy){.efficiency = NAN};
   for (int c = 0; c < 3; ++c) energy->sources[c] = lamp->bulb_flux[c] + lamp->glow_flux[c];
-  enum result result = flux_box_lamp(work->slabs, lamp->slab_count, energy->pages, error);
+  enum result result = flux_box_lamp(pages, count, energy->pages, error);
   if (result == RESULT_OK) result = probe_bake_wait(&bakes->dark, report, error);
   if (result == RESULT_OK && bakes->dark.count)
     result = flux_box_lamp(bakes->dark.pages, bakes->dark.count, energy->dark, error);

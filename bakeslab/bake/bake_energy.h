@@ -41,10 +41,12 @@ enum result bake_energy_start(const struct bake_work *work, struct bake_energy_b
                               struct error *error);
 void bake_energy_free(struct bake_energy_bakes *bakes);
 
-/* Waits for them, weighs the work's finished pages, and warns in the report where the lamp gives
- * more light than its bulbs, beyond the noise of the bake, or where the pages miss light. */
-enum result bake_energy(const struct bake_work *work, const struct bake_noise *noise,
-                        struct bake_energy_bakes *bakes, struct bake_energy *energy,
-                        struct bake_report *report, struct error *error);
+/* Waits for them, weighs the finished `pages`, those of all channels, and warns in the report where
+ * the lamp gives more light than its bulbs, beyond the noise of the bake, or where the pages miss
+ * light. */
+enum result bake_energy(const struct bake_work *work, const struct slab *pages, int count,
+                        const struct bake_noise *noise, struct bake_energy_bakes *bakes,
+                        struct bake_energy *energy, struct bake_report *report,
+                        struct error *error);
 
 #endif

@@ -1,6 +1,7 @@
 #include "bake/bake_warnings.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/files.h"
 #include "lamp/lamp_dark.h"
@@ -62,13 +63,40 @@ enum result bake_warn_of_lamp(const struct bake_work *work, struct lamp *lamp,
   return result;
 }
 
-enum result bake_warn_of_darkness(const struct bake_work *work, const struct slab *pages,
+enum result bake_refuse_stray_light(const struct bake_work *work, struct error *error) {
+  struct lamp_trial trial;
+  char *scratch = NULL;
+  double stray = 0;
+  if (!work->lamp->channel_count) return RESULT_OK;
+  enum result result = begin_trial(work, &trial, &scratch, error);
+  if (result == RESULT_OK) result = lamp_outside_channels(&trial, &stray, error);
+  end_trial(scratch);
+  if (result != RESULT_OK || stray == 0) return result;
+  return result_fail(error, RESULT_BAD,
+                     "%s: some of its light belongs to no Canned_Channel and would be in each; "
+                     "write emission rgb Canned_Lit(...) for what glows after a Canned_Channel, "
+                     "and Canned_Bulb or rgb Canned_Lit(...) for a light_source",
+                     work->source->script);
+}
+
+/* Whether a channel gives any light; of no name: whether any does. */
+static bool is_lit(const struct slab *pages, int count, const char *channel) {
+  for (int n = 0; n < count; ++n)
+    if ((!*channel || !strcmp(pages[n].channel, channel)) && slab_is_lit(&pages[n])) return true;
+  return false;
+}
+
+enum result bake_warn_of_darkness(const struct bake_work *work, const struct slab *pages, int count,
                                   struct warnings *warnings, struct error *error) {
   struct lamp_trial trial;
   char *scratch = NULL;
   const char *reason = "";
-  for (int n = 0; n < work->lamp->slab_count; ++n)
-    if (slab_is_lit(&pages[n])) return RESULT_OK;
+  bool lit = is_lit(pages, count, "");
+  for (int n = 0; lit && n < work->lamp->channel_count; ++n)
+    if (!is_lit(pages, count, work->lamp->channels[n].name))
+      warnings_add(warnings, "the channel \"%s\" gives no light that leaves through the pages",
+                   work->lamp->channels[n].name);
+  if (lit) return RESULT_OK;
   enum result result = begin_trial(work, &trial, &scratch, error);
   if (result == RESULT_OK) result = lamp_why_dark(&trial, work->lamp, &reason, error);
   if (result == RESULT_OK) warnings_add(warnings, "gives no light at all: %s", reason);

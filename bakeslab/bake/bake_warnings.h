@@ -10,8 +10,11 @@
 enum result bake_warn_of_lamp(const struct bake_work *work, struct lamp *lamp,
                               struct warnings *warnings, struct error *error);
 
-/* All pages are black: the likely reason, by more trial runs. */
-enum result bake_warn_of_darkness(const struct bake_work *work, const struct slab *pages,
+/* Refuses a lamp with channels of which some light belongs to none: it would be in each. */
+enum result bake_refuse_stray_light(const struct bake_work *work, struct error *error);
+
+/* All pages are black: the likely reason, by more trial runs. Or all of one channel are. */
+enum result bake_warn_of_darkness(const struct bake_work *work, const struct slab *pages, int count,
                                   struct warnings *warnings, struct error *error);
 
 #endif

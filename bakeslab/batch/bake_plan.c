@@ -52,10 +52,19 @@ void bake_tile_grid(const struct bake_tiles *tiles, int page, int grid[SLAB_AXES
   }
 }
 
+static int count_apertures(const struct slab *slabs, int pages) {
+  int n = 1;
+  while (n < pages && slab_same_channel(&slabs[n], &slabs[0])) ++n;
+  return n;
+}
+
 enum result bake_tiles_init(struct bake_tiles *tiles, const struct slab *slabs, int pages,
                             bool transposed, int side, struct error *error) {
-  *tiles =
-      (struct bake_tiles){.pages = pages, .slabs = slabs, .transposed = transposed, .side = side};
+  *tiles = (struct bake_tiles){.pages = pages,
+                               .apertures = count_apertures(slabs, pages),
+                               .slabs = slabs,
+                               .transposed = transposed,
+                               .side = side};
   tiles->first_tile = calloc((size_t)pages + 1, sizeof *tiles->first_tile);
   if (!tiles->first_tile) return result_no_memory(error);
   for (int page = 0; page < pages; ++page) {
@@ -160,19 +169,28 @@ static size_t spreading_stride(size_t count) {
   }
 }
 
-/* All passes from `from` to before `to` of the boxes from `box` on, pairs together. Each batch
- * samples interreflection anew and comes out a little brighter or darker than others: `spread`
- * puts neighbouring boxes into different batches, so that no seam runs through the slab. */
+static int channel_of(const struct bake_round *round, size_t box) {
+  return round->boxes[box].page / round->apertures;
+}
+
+/* All passes from `from` to before `to` of the boxes from `box` on, channel by channel, pairs
+ * together. Each batch samples interreflection anew and comes out a little brighter or darker than
+ * others: `spread` puts neighbouring boxes into different batches, so that no seam runs through the
+ * slab. */
 static bool add_passes(struct bake_round *round, size_t box, int from, int to, bool spread) {
-  size_t count = round->box_count - box, stride = spread && count ? spreading_stride(count) : 1;
-  size_t room = round->unit_count + count * (size_t)(to - from) + 1;
+  size_t room = round->unit_count + (round->box_count - box) * (size_t)(to - from) + 1;
   struct bake_unit *units = realloc(round->units, room * sizeof *units);
   if (!units) return false;
   round->units = units;
-  for (int pair = from; pair < to; pair += 2)
-    for (size_t n = 0, at = 0; n < count; ++n, at = (at + stride) % count)
-      for (int pass = pair; pass < pair + 2 && pass < to; ++pass)
-        units[round->unit_count++] = (struct bake_unit){(int)(box + at), pass};
+  for (size_t end; box < round->box_count; box = end) {
+    for (end = box; end < round->box_count && channel_of(round, end) == channel_of(round, box);)
+      ++end;
+    size_t count = end - box, stride = spread ? spreading_stride(count) : 1;
+    for (int pair = from; pair < to; pair += 2)
+      for (size_t n = 0, at = 0; n < count; ++n, at = (at + stride) % count)
+        for (int pass = pair; pass < pair + 2 && pass < to; ++pass)
+          units[round->unit_count++] = (struct bake_unit){(int)(box + at), pass};
+  }
   return true;
 }
 
@@ -205,6 +223,7 @@ static bool fits(const struct bake_round *round, const struct bake_batch *batch,
       round->units[unit].pass % 2 == 1 && round->units[unit - 1].box == round->units[unit].box;
   if (second_of_pair) return true;
   bool same_shape = !memcmp(box->size, first->size, sizeof box->size);
+  if (box->page / round->apertures != first->page / round->apertures) return false;
   if (form != BAKE_MESH && (batch->count >= BATCH_FRAMES || !same_shape)) return false;
   return batch_cost(batch) < full;
 }
@@ -300,7 +319,7 @@ static bool add_boxes(const struct bake_tiles *tiles, const int *wanted, int pas
 
 enum result bake_plan_whole(const struct bake_tiles *tiles, int from, int to, enum bake_form form,
                             struct bake_round *round, struct error *error) {
-  *round = (struct bake_round){0};
+  *round = (struct bake_round){.apertures = tiles->apertures};
   if (!add_boxes(tiles, NULL, 0, longest_side(form), round) ||
       !add_passes(round, 0, from, to, true))
     return result_no_memory(error);
@@ -341,7 +360,7 @@ enum result bake_plan_rest(const struct bake_tiles *tiles, const int *done, cons
   int count = bake_tile_count(tiles), range[2];
   int *step = malloc((size_t)count * sizeof *step); /* wanted, of tiles that lack all of a step */
   bool good = step != NULL;
-  *round = (struct bake_round){0};
+  *round = (struct bake_round){.apertures = tiles->apertures};
   find_range(tiles, done, wanted, range);
   for (int from = range[0], to; from < range[1] && good; from = to) {
     size_t box = round->box_count;

@@ -11,9 +11,11 @@
 enum bake_form { BAKE_MESH, BAKE_PERSPECTIVE, BAKE_TRANSPOSED };
 
 /* A grid of tiles over each page: a tile is one sample wide along the axes that a
- * camera doesn't cover. Tiles of all pages are numbered through. */
+ * camera doesn't cover. Tiles of all pages are numbered through. Of a lamp with channels, the pages
+ * of one come after those of another, all alike. */
 struct bake_tiles {
   int pages;
+  int apertures;            /* pages of one channel */
   const struct slab *slabs; /* not owned */
   bool transposed;          /* a camera covers u and v rather than s and t */
   bool dear;                /* photons or interreflection: each process costs many rays */
@@ -40,8 +42,8 @@ struct bake_unit {
   int box, pass; /* one image of one camera */
 };
 
-/* Units rendered by one POV-Ray process. Both passes of a pair are in the same batch if they are in
- * the same round. */
+/* Units rendered by one POV-Ray process, all of one channel. Both passes of a pair are in the same
+ * batch if they are in the same round. */
 struct bake_batch {
   size_t first, count; /* in units[] */
   size_t rays;
@@ -52,6 +54,7 @@ struct bake_round {
   struct bake_unit *units;
   struct bake_batch *batches;
   size_t box_count, unit_count, batch_count;
+  int apertures; /* of its tiles */
 };
 void bake_round_free(struct bake_round *round);
 

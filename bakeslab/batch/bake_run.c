@@ -151,12 +151,23 @@ static enum result explain_full_disk(const struct bake_store *store, size_t rays
                      store->directory, error->text);
 }
 
+/* Whether there is something in the batch's channel to shoot photons. */
+static bool has_bulbs(const struct run *run, size_t batch) {
+  const struct bake_round *round = run->round;
+  const struct bake_unit *unit = &round->units[round->batches[batch].first];
+  const char *name = run->work->slabs[round->boxes[unit->box].page].channel;
+  const struct lamp *lamp = run->work->lamp;
+  for (int n = 0; n < lamp->channel_count; ++n)
+    if (!strcmp(lamp->channels[n].name, name)) return lamp->channels[n].bulbs > 0;
+  return true;
+}
+
 /* POV-Ray says nothing of photons that miss their targets, and their light is lost. Where nobody
  * named the effect, a lamp without targets loses nothing. */
-static void check_photons(struct run *run, const char *directory) {
+static void check_photons(struct run *run, size_t batch, const char *directory) {
   enum { TOO_FEW = 1000 };
   const struct effects *effects = run->work->look.effects;
-  if (!effects->setting[CAUSTICS]) return;
+  if (!effects->setting[CAUSTICS] || !has_bulbs(run, batch)) return;
   double shot = fmax(0, povray_statistic(directory, "Number of photons shot:"));
   double stored = fmax(0, povray_statistic(directory, "Surface photons stored:"));
   if (shot >= TOO_FEW && stored > 0) return;
@@ -166,13 +177,13 @@ static void check_photons(struct run *run, const char *directory) {
 }
 
 /* Adds POV-Ray's own counts, from the log of a finished batch. */
-static void count_work(struct run *run, const char *directory) {
+static void count_work(struct run *run, size_t batch, const char *directory) {
   static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
   for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)
     run->traced += fmax(0, povray_statistic(directory, labels[n]));
   run->traced_cpu += povray_log_cpu(directory);
   run->depth = fmax(run->depth, povray_statistic(directory, "Max Level:"));
-  check_photons(run, directory);
+  check_photons(run, batch, directory);
 }
 
 static enum result end_batch(struct run *run, struct process *process, int status,
@@ -188,7 +199,7 @@ static enum result end_batch(struct run *run, struct process *process, int statu
   if (result != RESULT_OK) lamp_source_rename(work->source, error);
   bool crashed = result == RESULT_IO;
   if (result == RESULT_OK) result = read_batch(run, process->batch, &process->job, error);
-  if (result == RESULT_OK) count_work(run, process->scratch);
+  if (result == RESULT_OK) count_work(run, process->batch, process->scratch);
   if (result == RESULT_OK && run->photons_lost[0] && work->look.effects->named)
     result =
         result_fail(error, RESULT_BAD, "caustics: %s; " BAKE_PHOTONS_ADVICE, run->photons_lost);
@@ -221,7 +232,7 @@ static bool is_found(struct run *run, size_t batch) {
   char *folder = batch_folder(run, batch, &job);
   bool there = folder && access(folder, F_OK) == 0;
   bool whole = there && read_batch(run, batch, &job, NULL) == RESULT_OK;
-  if (whole) count_work(run, folder);
+  if (whole) count_work(run, batch, folder);
   if (there && !whole) files_remove_tree(folder); /* damaged: bake it again */
   free(folder);
   return whole;

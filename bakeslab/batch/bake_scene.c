@@ -93,12 +93,13 @@ static bool has_wider(const struct slab *slabs, int pages, int page) {
 }
 
 static void print_head(FILE *out, const struct bake_look *look, const struct slab *slabs, int pages,
-                       const struct povray_job *job) {
+                       const char *channel, const struct povray_job *job) {
   fputs("// Written by bakeslab: one batch of a bake. Again: povray render.ini (but with "
         "highlights)\n#version 3.7;\n",
         out);
   effects_declare(look->effects, out);
   if (look->dark) fputs("#declare Canned_Bake_Dark = 1;\n", out);
+  if (*channel) fprintf(out, "#declare Canned_Bake_Channel = \"%s\";\n", channel);
   /* A radiosity pretrace finer than every 16th pixel costs much and changes 0.01 %. */
   if (look->effects->setting[INTERREFLECTION])
     fprintf(out, "#declare Canned_Bake_Pretrace = 16/%d;\n",
@@ -201,7 +202,7 @@ char *bake_scene_text(const struct bake_look *look, const struct slab *slabs, in
   if (!out) return NULL;
   struct povray_job job;
   bake_scene_size(look, round, batch, &job);
-  print_head(out, look, slabs, pages, &job);
+  print_head(out, look, slabs, pages, slabs[unit_box(round, batch->first)->page].channel, &job);
   if (look->form == BAKE_MESH)
     print_mesh_camera(out, look, slabs, round, batch);
   else

@@ -94,13 +94,14 @@ static enum result check_flux(const struct page *page, struct error *error) {
   return RESULT_OK;
 }
 
-/* Whether light of the page leaves through another page's aperture too. */
+/* Whether light of the page leaves through the aperture of another page of its channel too. */
 static enum result check_twice(const struct page *page, struct error *error) {
   enum result result = RESULT_OK;
   for (int other = 0; other < slab_file_pages(page->file) && result == RESULT_OK; ++other) {
     double share = 0;
-    if (other == page->number) continue;
-    result = flux_box_twice(&page->slab, slab_file_page(page->file, other), &share, error);
+    const struct slab *beside = slab_file_page(page->file, other);
+    if (other == page->number || !slab_same_channel(&page->slab, beside)) continue;
+    result = flux_box_twice(&page->slab, beside, &share, error);
     if (share <= most_lost) continue;
     begin_warning(page);
     printf("%.3g %% of its flux leaves through the aperture of page %d too, and is there twice\n",

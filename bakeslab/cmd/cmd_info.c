@@ -1,11 +1,11 @@
 /* cmd_info.c - bakeslab info: what a slab is, for people or as JSON. The JSON has an object a page:
- *   page, name, precision, lossy (a compression, or null), samples, center, u, v, normal,
- * st_window, st_distance, metres_per_unit, radiance_unit, samples_are, flux [r, g, b], flux_unit,
- * peak [r, g, b], peak_sample [i, j, k, l], lowest (the smallest channel value), error, provenance.
- * error is an array of {apertures, noise, resolution, logluv, all}: the slab's own error so many
- * apertures away (slab_accuracy.h); null where it is not known, `all` is that of what is known.
- * Flux is in W or lm where the radiance has such a unit, always with lengths in metres
- * (slab_flux_metric). */
+ *   page, name, channel (where it has one), precision, lossy (a compression, or null), samples,
+ * center, u, v, normal, st_window, st_distance, metres_per_unit, radiance_unit, samples_are, flux
+ * [r, g, b], flux_unit, peak [r, g, b], peak_sample [i, j, k, l], lowest (the smallest channel
+ * value), error, provenance. error is an array of {apertures, noise, resolution, logluv, all}: the
+ * slab's own error so many apertures away (slab_accuracy.h); null where it is not known, `all` is
+ * that of what is known. Flux is in W or lm where the radiance has such a unit, always with lengths
+ * in metres (slab_flux_metric). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -100,20 +100,22 @@ static json_t *describe(const struct page *page, int number) {
   const struct slab *slab = &page->slab;
   const int *n = slab->samples, *at = page->peak_sample;
   bool infinite = isinf(slab->st_distance);
-  return json_pack(
-      "{s:i, s:s, s:s, s:s?, s:[iiii], s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:s, s:O*, s:o, s:s, "
-      "s:o, "
-      "s:[iiii], s:f, s:o, s:O*}",
-      "page", number, "name", slab->name, "precision", cli_precision_name(page->precision), "lossy",
-      page->lossy, "samples", n[0], n[1], n[2], n[3], "center", numbers(slab->center, 3), "u",
-      numbers(slab->u, 3), "v", numbers(slab->v, 3), "normal", numbers(slab->normal, 3),
-      "st_window", numbers(slab->st_window, 4), "st_distance",
-      infinite ? json_null() : json_real(slab->st_distance), "metres_per_unit",
-      slab->metres_per_unit, "radiance_unit", slab->radiance_unit, "samples_are",
-      json_object_get(page->root, "samples_are"), "flux", numbers(page->flux, 3), "flux_unit",
-      slab_flux_unit(slab), "peak", numbers(page->peak, 3), "peak_sample", at[0], at[1], at[2],
-      at[3], "lowest", page->lowest, "error", errors(page), "provenance",
-      json_object_get(page->root, "provenance"));
+  return json_pack("{s:i, s:s, s:s*, s:s, s:s?, s:[iiii], s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:s, "
+                   "s:O*, s:o, s:s, "
+                   "s:o, "
+                   "s:[iiii], s:f, s:o, s:O*}",
+                   "page", number, "name", slab->name, "channel",
+                   slab->channel[0] ? slab->channel : NULL, "precision",
+                   cli_precision_name(page->precision), "lossy", page->lossy, "samples", n[0], n[1],
+                   n[2], n[3], "center", numbers(slab->center, 3), "u", numbers(slab->u, 3), "v",
+                   numbers(slab->v, 3), "normal", numbers(slab->normal, 3), "st_window",
+                   numbers(slab->st_window, 4), "st_distance",
+                   infinite ? json_null() : json_real(slab->st_distance), "metres_per_unit",
+                   slab->metres_per_unit, "radiance_unit", slab->radiance_unit, "samples_are",
+                   json_object_get(page->root, "samples_are"), "flux", numbers(page->flux, 3),
+                   "flux_unit", slab_flux_unit(slab), "peak", numbers(page->peak, 3), "peak_sample",
+                   at[0], at[1], at[2], at[3], "lowest", page->lowest, "error", errors(page),
+                   "provenance", json_object_get(page->root, "provenance"));
 }
 
 static enum result print_json(const char *path, const struct page *pages, int count,
@@ -171,6 +173,7 @@ static void print_page(const char *path, const struct page *page, int number, in
   const int *n = slab->samples, *at = page->peak_sample;
   const double *w = slab->st_window, *flux = page->flux, *peak = page->peak;
   printf("%s: page %d of %d: %s\n", path, number, count, slab->name);
+  if (slab->channel[0]) printf("  %-14s%s\n", "channel", slab->channel);
   printf("  %-14s%d x %d x %d x %d, %s%s%s\n", "samples", n[0], n[1], n[2], n[3],
          cli_precision_name(page->precision),
          page->lossy ? ", changed by the lossy compression " : "", page->lossy ? page->lossy : "");
@@ -214,6 +217,22 @@ static enum result print_provenance(const struct page *page, struct error *error
   return result;
 }
 
+/* The flux of each channel, all of its pages together: in order of their first pages. */
+static void print_channels(const char *path, const struct page *pages, int count) {
+  for (int n = 0; n < count; ++n) {
+    const struct slab *slab = &pages[n].slab;
+    double flux[3] = {0};
+    bool first = slab->channel[0] != 0;
+    for (int k = 0; k < n; ++k) first &= !slab_same_channel(&pages[k].slab, slab);
+    if (!first) continue;
+    for (int k = n; k < count; ++k)
+      for (int c = 0; c < 3 && slab_same_channel(&pages[k].slab, slab); ++c)
+        flux[c] += pages[k].flux[c];
+    printf("%s: channel %s: flux %.6g %.6g %.6g (%s)\n", path, slab->channel, flux[0], flux[1],
+           flux[2], slab_flux_unit(slab));
+  }
+}
+
 static enum result run(void *input, struct error *error) {
   const struct options *options = input;
   struct slab_file *file = NULL;
@@ -230,6 +249,7 @@ static enum result run(void *input, struct error *error) {
     result = print_source(&pages[n].slab, error);
     if (result == RESULT_OK) result = print_provenance(&pages[n], error);
   }
+  if (result == RESULT_OK && !options->json) print_channels(options->path, pages, count);
   for (int n = 0; pages && n < count; ++n) {
     json_decref(pages[n].root);
     slab_free(&pages[n].slab);
@@ -243,7 +263,8 @@ static const char doc[] =
     "Prints what a light slab is: geometry, samples, flux and peak of each page, and how "
     "it was made: the effects, the estimated noise and the rest of its provenance; and its own "
     "error of irradiance on a surface that faces it, estimated as by check --error, by noise, "
-    "resolution and rounding to LogLuv, which scenes lit by it inherit. Flux "
+    "resolution and rounding to LogLuv, which scenes lit by it inherit. Of a lamp whose bulbs are "
+    "in channels, also the flux of each. Flux "
     "is the integral of the interpolated radiance times the cosine, with lengths in "
     "metres: in W or lm where the radiance has a unit."
     "\vExamples:\n"

@@ -68,7 +68,7 @@ static enum result add_page(struct lamp *lamp, const struct slab *slab, int numb
     ++lamp->count;
     return RESULT_OK;
   }
-  if (!radiance_overlap_alike(page->slab, slab))
+  if (!slab_alike(page->slab, slab))
     return result_fail(error, RESULT_BAD,
                        "pages %d and %d overlap, and Radiance sees one of two polygons in a place; "
                        "they are added up only where all but their samples is alike: bake them "

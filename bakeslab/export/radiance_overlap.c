@@ -1,7 +1,6 @@
 #include "export/radiance_overlap.h"
 
 #include <math.h>
-#include <string.h>
 
 static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -21,16 +20,6 @@ bool radiance_overlap(const struct slab *a, const struct slab *b) {
     if (fabs(dot(apart, edges[axis])) >= (1 - 1e-6) * reach) return false;
   }
   return true;
-}
-
-bool radiance_overlap_alike(const struct slab *a, const struct slab *b) {
-  bool alike = a->st_distance == b->st_distance && !strcmp(a->radiance_unit, b->radiance_unit);
-  for (int k = 0; k < SLAB_AXES; ++k)
-    alike = alike && a->samples[k] == b->samples[k] && a->st_window[k] == b->st_window[k];
-  for (int c = 0; c < 3; ++c)
-    alike = alike && a->center[c] == b->center[c] && a->u[c] == b->u[c] && a->v[c] == b->v[c] &&
-            a->normal[c] == b->normal[c];
-  return alike;
 }
 
 enum result radiance_overlap_add(const struct slab *a, const struct slab *b, struct slab *sum,

@@ -8,10 +8,8 @@
 /* Whether the apertures lie in one plane, face one side, and overlap. */
 bool radiance_overlap(const struct slab *a, const struct slab *b);
 
-/* Whether all but the samples is alike, so that these can be added. */
-bool radiance_overlap_alike(const struct slab *a, const struct slab *b);
-
-/* *sum, which has samples or is zero, becomes the sum of a and b; the caller frees it. */
+/* *sum, of two pages that are slab_alike, which has samples or is zero, becomes the sum of a and b;
+ * the caller frees it. */
 enum result radiance_overlap_add(const struct slab *a, const struct slab *b, struct slab *sum,
                                  struct error *error);
 

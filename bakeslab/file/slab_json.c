@@ -120,6 +120,8 @@ static enum result get_fields(const json_t *root, struct slab *slab, double whit
     result = get_number(root, "metres_per_unit", &slab->metres_per_unit, error);
   if (result == RESULT_OK) result = get_string(root, "name", slab->name, sizeof slab->name, error);
   if (result == RESULT_OK)
+    result = get_string(root, "channel", slab->channel, sizeof slab->channel, error);
+  if (result == RESULT_OK)
     result =
         get_string(root, "radiance_unit", slab->radiance_unit, sizeof slab->radiance_unit, error);
   if (result == RESULT_OK) result = check_samples_are(root, error);
@@ -181,6 +183,10 @@ enum result slab_json_text(const struct slab *slab, const double white[3], char 
       isinf(slab->st_distance) ? json_null() : number(slab->st_distance), "metres_per_unit",
       number(slab->metres_per_unit), "radiance_unit", slab->radiance_unit);
   bool failed = json_object_update(root, fields) != 0;
+  if (slab->channel[0])
+    json_object_set_new(root, "channel", json_string(slab->channel));
+  else
+    json_object_del(root, "channel");
   if (white)
     json_object_set_new(root, "logluv_white", numbers(white, 3));
   else

@@ -28,7 +28,8 @@ struct include_wish {
 
 /* Of the kinds that may be made, the cheapest for POV-Ray whose irradiance is the tolerance
  * (relative RMSE) or less off on planes at the distance from each page; with as few lights as
- * that allows. Among all kinds also past an edge half way, and in bounded time. Refuses a
+ * that allows. Among all kinds also past an edge half way, and in bounded time; of a lamp with
+ * channels no far field. Refuses a
  * tolerance that none meets, and says which comes closest. Free with include_choice_free, also
  * after a failure. */
 enum result include_choose(const struct slab *slabs, int count, const struct include_wish *wish,

@@ -14,7 +14,7 @@
 #include "povray/povray.h"
 #include "slab/slab.h"
 
-enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24 };
+enum { LAMP_MAX_LIBRARIES = 32, LAMP_LINK_SIZE = 24, LAMP_MAX_CHANNELS = 16 };
 
 /* The names, in a scene's folder, of the links to the script and to the preloaded library that
  * lists the files read. LD_PRELOAD takes blanks for separators, and the library's own path may
@@ -36,24 +36,33 @@ struct lamp_source {
   char *libraries[LAMP_MAX_LIBRARIES + 1]; /* the user's -L folders */
 };
 
+/* A group of bulbs that Canned_Channel names. */
+struct lamp_channel {
+  char name[SLAB_CHANNEL_SIZE];
+  int bulbs;  /* calls of Canned_Bulb */
+  int lights; /* of these, of Canned_Glow and of Canned_Lit */
+};
+
 struct lamp {
   int slab_count;
   struct slab *slabs; /* geometry as declared; samples[] are all 1 */
   bool needs_declared;
   char needs[256];         /* of Canned_Needs */
   struct lamp_reads reads; /* every file that the script reads */
-  int bulbs;               /* calls of Canned_Bulb */
-  int all_lights;          /* light_sources by POV-Ray's own count, which leaves light_groups out */
-  int lights;              /* besides Canned_Bulb's: of lamp_count_lights; lamp_try leaves 0 */
-  double peak;             /* brightest radiance of the trial run and the bulbs, any channel */
-  double mean;             /* of the radiance that the trial run saw */
-  double bulb_flux[3];     /* of all bulbs, in units of radiance and lamp units squared */
-  double glow_flux[3];     /* the same of Canned_Glow */
-  bool final_window;       /* Canned_Window_Is_Final */
-  bool own_radiosity;      /* the script turns radiosity on by itself */
-  bool mesh_camera;        /* works */
-  bool hazy;               /* fog or media fill all of space */
-  int defect_rows;         /* image rows to skip: 1 with POV-Ray 3.7's defect */
+  int channel_count;       /* 0: all bulbs together */
+  struct lamp_channel channels[LAMP_MAX_CHANNELS];
+  int bulbs;           /* calls of Canned_Bulb */
+  int all_lights;      /* light_sources by POV-Ray's own count, which leaves light_groups out */
+  int lights;          /* besides Canned_Bulb's: of lamp_count_lights; lamp_try leaves 0 */
+  double peak;         /* brightest radiance of the trial run and the bulbs, any channel */
+  double mean;         /* of the radiance that the trial run saw */
+  double bulb_flux[3]; /* of all bulbs, in units of radiance and lamp units squared */
+  double glow_flux[3]; /* the same of Canned_Glow */
+  bool final_window;   /* Canned_Window_Is_Final */
+  bool own_radiosity;  /* the script turns radiosity on by itself */
+  bool mesh_camera;    /* works */
+  bool hazy;           /* fog or media fill all of space */
+  int defect_rows;     /* image rows to skip: 1 with POV-Ray 3.7's defect */
 };
 
 /* Resolves the script and finds include-pov and the preloaded library beside the

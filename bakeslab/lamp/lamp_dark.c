@@ -85,6 +85,11 @@ enum result lamp_ambient_part(const struct lamp_trial *trial, const struct lamp 
   return result;
 }
 
+enum result lamp_outside_channels(const struct lamp_trial *trial, double *mean,
+                                  struct error *error) {
+  return try_change(trial, "Canned_Probe_No_Channel_", mean, error);
+}
+
 /* ---- Darkness ---- */
 
 enum result lamp_why_dark(const struct lamp_trial *trial, const struct lamp *lamp,

@@ -27,6 +27,10 @@ enum result lamp_ambient_part(const struct lamp_trial *trial, const struct lamp 
  * those in it out. */
 bool lamp_has_light_groups(const struct lamp_trial *trial, const struct lamp *lamp);
 
+/* The mean light, as the trial run sees it, of what belongs to no channel of the lamp. */
+enum result lamp_outside_channels(const struct lamp_trial *trial, double *mean,
+                                  struct error *error);
+
 /* The likely reason why no light of the lamp leaves through its slabs, and what to do: a text that
  * lives as long as the program. */
 enum result lamp_why_dark(const struct lamp_trial *trial, const struct lamp *lamp,

@@ -237,12 +237,13 @@ struct later {
 };
 
 /* A point on a page's plane, within rounding, counts, but of two pages in one plane only the
- * second. */
+ * second. Pages of another channel hold other light. */
 static bool leaves_later(const struct later *later, const double point[3],
                          const double direction[3]) {
   for (int n = 0; n < later->count; ++n) {
     const struct slab *page = &later->pages[n];
     double ahead, least = plane_width(page) * (n > later->self ? -1e-9 : 1e-9);
+    if (later->self >= 0 && !slab_same_channel(page, &later->pages[later->self])) continue;
     if (n != later->self && flux_box_leaves(page, point, direction, &ahead) && ahead >= least)
       return true;
   }

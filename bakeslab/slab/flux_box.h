@@ -26,8 +26,8 @@ enum result flux_box_measure(const struct slab *slab, struct flux_box *flux, str
 enum result flux_box_twice(const struct slab *slab, const struct slab *other, double *share,
                            struct error *error);
 
-/* The flux of a lamp of `count` pages: that of each ray once, through the last page that it leaves
- * by. Units of slab_flux. */
+/* The flux of a lamp of `count` pages: that of each ray once, through the last page of its channel
+ * that it leaves by. Units of slab_flux. */
 enum result flux_box_lamp(const struct slab *pages, int count, double rgb[3], struct error *error);
 
 /* Whether the line of a ray passes through a page's aperture inside its window, outwards; *ahead

@@ -147,6 +147,20 @@ enum result slab_copy_geometry(const struct slab *from, struct slab *to, struct 
   return RESULT_OK;
 }
 
+bool slab_same_channel(const struct slab *a, const struct slab *b) {
+  return !strcmp(a->channel, b->channel);
+}
+
+bool slab_alike(const struct slab *a, const struct slab *b) {
+  bool alike = a->st_distance == b->st_distance && !strcmp(a->radiance_unit, b->radiance_unit);
+  for (int k = 0; k < SLAB_AXES; ++k)
+    alike = alike && a->samples[k] == b->samples[k] && a->st_window[k] == b->st_window[k];
+  for (int c = 0; c < 3; ++c)
+    alike = alike && a->center[c] == b->center[c] && a->u[c] == b->u[c] && a->v[c] == b->v[c] &&
+            a->normal[c] == b->normal[c];
+  return alike;
+}
+
 double slab_kappa(const struct slab *slab) {
   return 1 / slab->st_distance;
 }

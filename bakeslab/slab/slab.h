@@ -21,12 +21,13 @@
 #include "base/result.h"
 
 enum { SLAB_U, SLAB_V, SLAB_S, SLAB_T, SLAB_AXES }; /* indices into samples[] */
-enum { SLAB_NAME_SIZE = 128, SLAB_UNIT_SIZE = 16 };
+enum { SLAB_NAME_SIZE = 128, SLAB_UNIT_SIZE = 16, SLAB_CHANNEL_SIZE = 64 };
 enum { SLAB_PADDING = 8 }; /* floats behind the last sample, so that vectors may be read there */
 
 struct slab {
   char name[SLAB_NAME_SIZE];
-  int samples[SLAB_AXES]; /* Nu, Nv, Ns, Nt, each >= 1 */
+  char channel[SLAB_CHANNEL_SIZE]; /* the group of bulbs that lights the page; empty: all of them */
+  int samples[SLAB_AXES];          /* Nu, Nv, Ns, Nt, each >= 1 */
   double center[3];
   double u[3], v[3];   /* full edge vectors, perpendicular */
   double normal[3];    /* unit; never derived from u x v */
@@ -63,6 +64,13 @@ int slab_height(const struct slab *slab); /* Nv * Nt */
 
 /* The number in rgb[] of the first value that is negative; 3 * slab_sample_count: none is. */
 size_t slab_negative(const struct slab *slab);
+
+/* Whether two pages are lit by the same group of bulbs. Pages of different groups may share an
+ * aperture, and add up. */
+bool slab_same_channel(const struct slab *a, const struct slab *b);
+
+/* Whether all but the samples and the channel is alike, so that the samples can be added. */
+bool slab_alike(const struct slab *a, const struct slab *b);
 
 /* Whether any sample differs from 0. */
 bool slab_is_lit(const struct slab *slab);

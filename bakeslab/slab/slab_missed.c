@@ -54,7 +54,8 @@ enum result slab_missed_add(const struct slab *page, int number, int count,
     bool shared = false;
     if (slab_profile_cut_off(&profile, axis, end) == 0) continue;
     for (int n = 0; axis < SLAB_S && n < count; ++n)
-      shared |= n != number && goes_on(page, axis, end, pages(of, n));
+      shared |= n != number && slab_same_channel(page, pages(of, n)) &&
+                goes_on(page, axis, end, pages(of, n));
     if (shared) continue;
     if (axis >= SLAB_S) missed->beyond += beyond(page, axis, end);
     size_t used = strlen(missed->where);

@@ -1,5 +1,6 @@
 #include "base/key_values.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -7,6 +8,9 @@
 
 size_t key_values_key(const char *text) {
   size_t length = strspn(text, "abcdefghijklmnopqrstuvwxyz");
+  if (length > 0 && text[length] == '.') do
+      ++length;
+    while (isalnum((unsigned char)text[length]) || text[length] == '_');
   return length > 0 && text[length] == '=' ? length + 1 : 0;
 }
 

@@ -1,4 +1,5 @@
-/* key_values.h - texts of words KEY=NUMBER[,NUMBER...], as `--light` and `--camera` take them. */
+/* key_values.h - texts of words KEY=NUMBER[,NUMBER...], as `--light` and `--camera` take them. A
+ * key is of small letters; a part after a dot may have capitals, digits and _. */
 #ifndef KEY_VALUES_H
 #define KEY_VALUES_H
 

@@ -57,9 +57,14 @@ static error_t parse_lights(int key, char *value, struct argp_state *state) {
 static const struct argp_option light_options[] = {
     {"light", OPTION_LIGHT, "LIGHT", 0,
      "'FILE [at=X,Y,Z] [toward=X,Y,Z] [up=X,Y,Z] [matrix=12 numbers] [scale=S] "
-     "[gain=G|R,G,B|lumens=L] [kelvin=K] [metres=M]': a slab, where it is, and how bright: gain "
-     "multiplies its radiance, lumens make its flux (and its radiance cd/m2), kelvin, 1000 to "
-     "40000, is its colour; where scale converts units, metres is the scene's unit; may be "
+     "[gain=G|R,G,B|lumens=L] [kelvin=K] [metres=M] [gain.CHANNEL=G]': a slab, where it is, and "
+     "how "
+     "bright: gain multiplies its radiance, that of a channel the light of a group of bulbs that "
+     "it "
+     "has apart (`bakeslab info' names them), lumens make its flux (and its radiance cd/m2), "
+     "kelvin, 1000 to 40000, is its colour; where scale converts units, metres is the scene's "
+     "unit; "
+     "may be "
      "repeated",
      0},
     {"repair", OPTION_REPAIR, NULL, 0,

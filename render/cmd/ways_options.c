@@ -154,7 +154,12 @@ enum result ways_options_run(struct world *world, const struct ways_options *way
   struct progress progress;
   enum result result = light_text_parse(text, &light, error);
   if (result != RESULT_OK) return result;
-  result = load(world, light.path, output, plot, error);
+  if (light.channel_count)
+    result = result_fail(error, RESULT_BAD,
+                         "--light %s: gain.%s=: the whole lamp is compared with, all channels at "
+                         "their full light; leave it out",
+                         text, light.channels[0].name);
+  if (result == RESULT_OK) result = load(world, light.path, output, plot, error);
   if (result == RESULT_OK) {
     struct ways_settings settings = {
         .lamp = light.path,

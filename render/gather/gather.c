@@ -101,7 +101,7 @@ struct look {
 };
 
 static void add(const struct look *look, const double light[3], double sum[3]) {
-  for (int c = 0; c < 3; ++c) sum[c] += look->light->gain[c] * light[c];
+  for (int c = 0; c < 3; ++c) sum[c] += look->light->gain[c] * look->page->gain * light[c];
 }
 
 static void note_error(struct gather *gather, const struct look *look, double error) {

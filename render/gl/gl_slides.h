@@ -19,7 +19,7 @@ struct gl_slides_array {
 
 struct gl_slides {
   const struct light_page *page;
-  double gain[3];   /* of the light */
+  double gain[3];   /* of the page */
   double scale;     /* radiance = scale x what the slides hold */
   double center[3]; /* of the page, relative to the origin */
   int count;        /* views that are not black */

@@ -40,7 +40,7 @@ static int64_t choose_pages(struct gl_sum *sum) {
           (int64_t)count_groups(settings, &page->axes[0]) * count_groups(settings, &page->axes[1]);
       struct gl_slides *slides = &sum->slides[sum->pages++];
       *slides = (struct gl_slides){.page = page};
-      memcpy(slides->gain, settings->lights[l].gain, sizeof slides->gain);
+      for (int c = 0; c < 3; ++c) slides->gain[c] = settings->lights[l].gain[c] * whole->gain;
       for (int c = 0; c < 3; ++c) sum->origin[c] += (page->center[c] - sum->origin[c]) / sum->pages;
     }
   return groups;

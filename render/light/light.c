@@ -2,13 +2,13 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/kelvin.h"
 #include "base/vector.h"
 #include "file/slab_file.h"
-#include "light/light_text.h"
 
 /* Relative error of a matrix that is meant to be a similarity: people print it with a few
  * digits. */
@@ -97,6 +97,55 @@ static enum result place(const char *text, const struct light_text *where, struc
     for (int c = 0; c < 3; ++c) light->matrix[row][c] *= where->scale;
   light->scale = scale * where->scale;
   return result;
+}
+
+/* ---- Gain ---- */
+
+static int find_channel(const struct light *light, const char *name) {
+  int n = 0;
+  while (n < light->channel_count && strcmp(light->channels[n].name, name) != 0) ++n;
+  return n;
+}
+
+void light_set_channel(struct light *light, int channel, double gain) {
+  light->channels[channel].gain = gain;
+  for (int page = 0; page < light->count; ++page)
+    if (find_channel(light, light->pages[page].slab.channel) == channel)
+      light->pages[page].gain = gain;
+}
+
+/* What a channel is called that is not there: one line. */
+static enum result no_channel(const char *text, const struct light *light, const char *name,
+                              struct error *error) {
+  char known[256] = "";
+  size_t used = 0;
+  for (int n = 0; n < light->channel_count && used < sizeof known; ++n)
+    used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", n ? ", " : ": it has ",
+                             light->channels[n].name);
+  return result_fail(error, RESULT_BAD, "--light %s: gain.%s=: %s has no channel %s%s", text, name,
+                     light->path, name, used ? known : "; all of its bulbs are together");
+}
+
+/* Finds the slab's channels and sets their gains. */
+static enum result set_channels(const char *text, const struct light_text *where,
+                                struct light *light, struct error *error) {
+  for (int page = 0; page < light->count; ++page) {
+    const char *name = light->pages[page].slab.channel;
+    int n = find_channel(light, name);
+    light->pages[page].gain = 1;
+    if (!*name || n < light->channel_count) continue;
+    if (n == LIGHT_CHANNELS)
+      return result_fail(error, RESULT_BAD, "%s: has more than %d channels", light->path, n);
+    strcpy(light->channels[light->channel_count++].name, name);
+    light_set_channel(light, n, 1);
+  }
+  for (int k = 0; k < where->channel_count; ++k) {
+    const struct light_channel *asked = &where->channels[k];
+    int n = find_channel(light, asked->name);
+    if (n == light->channel_count) return no_channel(text, light, asked->name, error);
+    light_set_channel(light, n, asked->gain);
+  }
+  return RESULT_OK;
 }
 
 /* Of 127 exponents that floats have above 1; the rest is for sums. */
@@ -213,6 +262,7 @@ enum result light_load(const char *text, struct light *light, struct error *erro
   else
     slab_file_free_all(slabs, light->count);
   if (result == RESULT_OK) result = place(text, &where, light, error);
+  if (result == RESULT_OK) result = set_channels(text, &where, light, error);
   for (int page = 0; page < light->count && result == RESULT_OK; ++page)
     result = set_page(text, light, &light->pages[page], error);
   if (result == RESULT_OK) result = set_gain(&where, light, error);
@@ -278,7 +328,7 @@ static void add_radiance(const struct light *light, const struct light_page *pag
     st[axis] =
         vector_dot(direction, page->frame[axis]) / along + page->axes[axis].kappa * point[axis];
   slab_lookup(&page->slab, point[0] / light->scale, point[1] / light->scale, st[0], st[1], seen);
-  for (int c = 0; c < 3; ++c) rgb[c] += light->gain[c] * seen[c];
+  for (int c = 0; c < 3; ++c) rgb[c] += light->gain[c] * page->gain * seen[c];
 }
 
 double light_seen(const struct light *lights, int count, const double origin[3],

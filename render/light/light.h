@@ -1,11 +1,13 @@
 /* light.h - a canned light in a scene: its slabs, and where they are.
  *
  * `LIGHT` of the command line: FILE [at=X,Y,Z] [toward=X,Y,Z] [up=X,Y,Z] [matrix=12 numbers]
- * [scale=S] [gain=G or R,G,B or lumens=L] [kelvin=K] [metres=M]. The lamp's point p goes to at +
- * scale R p, where R turns the first page's normal to toward - at and its v towards up as nearly as
- * it can; `matrix` is in POV-Ray's order and excludes at, toward and up. Scaling keeps radiance;
- * gain multiplies it, and so does the colour of a black body of K kelvin. With lumens the gain is
- * what makes the flux of the placed lamp L, in cd/m2: M is the scene's unit, by default the slab's.
+ * [scale=S] [gain=G or R,G,B or lumens=L] [kelvin=K] [metres=M] [gain.CHANNEL=G]. The lamp's point
+ * p goes to at + scale R p, where R turns the first page's normal to toward - at and its v towards
+ * up as nearly as it can; `matrix` is in POV-Ray's order and excludes at, toward and up. Scaling
+ * keeps radiance; gain multiplies it, and so does the colour of a black body of K kelvin. With
+ * lumens the gain is what makes the flux of the placed lamp L, in cd/m2: M is the scene's unit, by
+ * default the slab's. That of a channel multiplies the radiance of its pages (slab->channel), after
+ * all this.
  *
  * Only similarities (turning, mirroring, moving, one scale) leave a slab a slab: other
  * matrices are refused. */
@@ -14,8 +16,8 @@
 
 #include <stdbool.h>
 
+#include "light/light_text.h"
 #include "light/lit_rows.h"
-#include "slab/slab.h"
 
 /* One axis of a page: the aperture's (u or v), seen with the window's (s or t). Lengths in
  * scene units. */
@@ -30,6 +32,7 @@ struct light_axis {
 
 struct light_page {
   struct slab slab;   /* as loaded, in lamp space; owned */
+  double gain;        /* of its channel, beside the light's */
   double center[3];   /* in scene space, as the frame below: */
   double frame[3][3]; /* unit vectors u', v' and n */
   struct light_axis axes[2];
@@ -41,8 +44,10 @@ struct light_page {
 struct light {
   char *path; /* of the slab; owned */
   int count;
-  struct light_page *pages; /* owned */
-  double gain[3];
+  struct light_page *pages;                      /* owned */
+  double gain[3];                                /* of all pages */
+  struct light_channel channels[LIGHT_CHANNELS]; /* those of the slab, in the order of its pages */
+  int channel_count;
   double scale;
   bool measured;       /* by lumens: radiance is in cd/m2 */
   bool resized;        /* measured, its scale is far from 1, and nothing is said of units */
@@ -59,6 +64,9 @@ int light_pages(const struct light *lights, int count);
 /* Moves and turns the light, without scaling it: `matrix` as light->matrix. False, and nothing is
  * changed, where the result is not finite. */
 bool light_move(struct light *light, const double matrix[4][3]);
+
+/* Sets the gain of a channel, by its number. */
+void light_set_channel(struct light *light, int channel, double gain);
 
 /* Sets what depends on the slab's samples, after these have changed. Denormal samples become 0:
  * they have lost their digits, and processors are slow with them. */

@@ -267,6 +267,9 @@ static void print_object(const char *name, const char *macro, const struct light
 static void print_light(const struct light *light, const struct pov_include *include,
                         const double from[3], FILE *out) {
   double inverse[4][3], eye[3], scale = light->scale;
+  for (int n = 0; n < light->channel_count; ++n)
+    fprintf(out, "%s_Canned_Channel(\"%s\", %.15g)\n", include->name, light->channels[n].name,
+            light->channels[n].gain);
   print_object(include->name, "Canned", light, NULL, out);
   if (!include->face || !has_face(light, from)) return;
   invert(light->matrix, inverse);

@@ -27,17 +27,33 @@ static void add_camera(FILE *out, const struct camera *camera) {
            from[1], from[2], at[0], at[1], at[2], up[0], up[1], up[2], camera->fov);
 }
 
-static void add_light(FILE *out, const char *text, const struct light *light, bool moved) {
+/* " gain.NAME=G" of each channel, to be freed; NULL without memory. */
+static char *channel_gains(const struct light *light) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  for (int n = 0; n < light->channel_count; ++n)
+    fprintf(out, " gain.%s=%.9g", light->channels[n].name, light->channels[n].gain);
+  fclose(out);
+  return text;
+}
+
+static void add_light(FILE *out, const char *text, const struct light *light, bool changed) {
   const double(*m)[3] = light->matrix;
   add_word(out, "--light");
-  if (!moved)
+  if (!changed) {
     add_word(out, "%s", text);
-  else
-    add_word(
-        out,
-        "%s matrix=%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g gain=%.9g,%.9g,%.9g",
-        light->path, m[0][0], m[0][1], m[0][2], m[1][0], m[1][1], m[1][2], m[2][0], m[2][1],
-        m[2][2], m[3][0], m[3][1], m[3][2], light->gain[0], light->gain[1], light->gain[2]);
+    return;
+  }
+  char *channels = channel_gains(light);
+  add_word(out,
+           "%s matrix=%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g "
+           "gain=%.9g,%.9g,%.9g%s",
+           light->path, m[0][0], m[0][1], m[0][2], m[1][0], m[1][1], m[1][2], m[2][0], m[2][1],
+           m[2][2], m[3][0], m[3][1], m[3][2], light->gain[0], light->gain[1], light->gain[2],
+           channels ? channels : "");
+  free(channels);
 }
 
 static void add_sum(FILE *out, const struct viewer_world *world, const struct viewer_sum *sum) {
@@ -63,8 +79,10 @@ char *viewer_command(const struct viewer_arguments *arguments, const struct view
   add_word(out, "%s", arguments->mesh);
   for (int k = 0; k < world->light_count; ++k) {
     const struct viewer_light *light = &state->lights[k];
-    bool moved = !viewer_same_place(light->matrix, light->first);
-    add_light(out, arguments->lights[k], &world->lights[k], moved);
+    bool changed = !viewer_same_place(light->matrix, light->first);
+    for (int n = 0; n < light->channel_count; ++n)
+      changed |= light->gains[n] != light->first_gains[n];
+    add_light(out, arguments->lights[k], &world->lights[k], changed);
   }
   add_camera(out, &state->camera);
   add_sum(out, world, &state->sum);

@@ -65,12 +65,27 @@ static void follow_lights(struct viewer_loop *loop) {
   }
 }
 
+/* Whether a channel's gain has changed. */
+static bool follow_channels(struct viewer_loop *loop) {
+  bool changed = false;
+  for (int k = 0; k < loop->state.light_count; ++k) {
+    const struct light *there = &loop->arguments->world->lights[k];
+    for (int n = 0; n < there->channel_count; ++n) {
+      double gain = loop->state.lights[k].gains[n];
+      if (gain == there->channels[n].gain) continue;
+      viewer_picture_dim(&loop->picture, k, n, gain);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
 /* Brings the picture up to date with the state. */
 static enum result follow(struct viewer_loop *loop, struct error *error) {
   enum result result = follow_window(loop, error);
   if (result != RESULT_OK) return result;
   follow_lights(loop);
-  if (!same_sum(&loop->picture.how, &loop->state.sum)) {
+  if (follow_channels(loop) || !same_sum(&loop->picture.how, &loop->state.sum)) {
     double views = loop->share * (double)loop->picture.views;
     result = viewer_picture_set_sum(&loop->picture, &loop->state.sum, error);
     if (result != RESULT_OK) return result;

@@ -109,6 +109,11 @@ bool viewer_picture_move(struct viewer_picture *picture, int light, const double
   return true;
 }
 
+void viewer_picture_dim(struct viewer_picture *picture, int light, int channel, double gain) {
+  light_set_channel(&picture->world->lights[light], channel, gain);
+  picture->full = false;
+}
+
 void viewer_picture_start(struct viewer_picture *picture, const struct camera *camera) {
   const struct viewer_world *world = picture->world;
   bool seen = picture->lamps.any;

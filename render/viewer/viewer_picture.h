@@ -70,6 +70,9 @@ enum result viewer_picture_resize(struct viewer_picture *picture, int width, int
 /* Puts a light elsewhere, as light_move. */
 bool viewer_picture_move(struct viewer_picture *picture, int light, const double matrix[4][3]);
 
+/* Sets the gain of a light's channel, as light_set_channel; viewer_picture_set_sum is due too. */
+void viewer_picture_dim(struct viewer_picture *picture, int light, int channel, double gain);
+
 /* Draws the surfaces as the camera sees them, without light. */
 void viewer_picture_start(struct viewer_picture *picture, const struct camera *camera);
 

@@ -13,6 +13,7 @@
 static const double step_angle = M_PI / 36; /* turning */
 static const double step_length = 0.05;     /* moving, of the camera's distance */
 static const double step_zoom = 1.1, step_exposure = 1.189207115002721;
+static const double steps_gain = 10; /* a unit of a channel's gain */
 
 enum { MOST_GROUPS = 16 };
 
@@ -33,6 +34,9 @@ enum result viewer_state_create(const struct viewer_world *world, const struct c
     memcpy(state->lights[k].matrix, light->matrix, sizeof light->matrix);
     memcpy(state->lights[k].first, light->matrix, sizeof light->matrix);
     memcpy(state->lights[k].pivot, light->pages[0].slab.center, sizeof state->lights[k].pivot);
+    state->lights[k].channel_count = light->channel_count;
+    for (int n = 0; n < light->channel_count; ++n)
+      state->lights[k].gains[n] = state->lights[k].first_gains[n] = light->channels[n].gain;
   }
   return RESULT_OK;
 }
@@ -108,8 +112,24 @@ static void arrow_camera(struct viewer_state *state, int key, bool shift) {
 
 static void reset(struct viewer_state *state) {
   state->camera = state->first;
-  for (int k = 0; k < state->light_count; ++k)
-    memcpy(state->lights[k].matrix, state->lights[k].first, sizeof state->lights[k].matrix);
+  for (int k = 0; k < state->light_count; ++k) {
+    struct viewer_light *light = &state->lights[k];
+    memcpy(light->matrix, light->first, sizeof light->matrix);
+    memcpy(light->gains, light->first_gains, sizeof light->gains);
+  }
+}
+
+int viewer_state_light(const struct viewer_state *state) {
+  return state->selected > 0 ? state->selected - 1 : 0;
+}
+
+/* The next channel, or so many steps more of the chosen one's gain. */
+static void press_channel(struct viewer_state *state, int next, int steps) {
+  struct viewer_light *light = &state->lights[viewer_state_light(state)];
+  if (light->channel_count == 0) return;
+  state->channel = (state->channel + next) % light->channel_count;
+  double *gain = &light->gains[state->channel];
+  if (steps) *gain = fmax(0, rint(*gain * steps_gain + steps) / steps_gain);
 }
 
 static void press_letter(struct viewer_state *state, int key) {
@@ -127,6 +147,15 @@ static void press_letter(struct viewer_state *state, int key) {
     return;
   case 'G':
     *groups = *groups < MOST_GROUPS ? 2 * *groups : 0;
+    return;
+  case 'c':
+    press_channel(state, 1, 0);
+    return;
+  case '[':
+    press_channel(state, 0, -1);
+    return;
+  case ']':
+    press_channel(state, 0, 1);
     return;
   case 'd':
     state->sum.shadows = !state->sum.shadows;

@@ -24,6 +24,8 @@ enum viewer_key {
 struct viewer_light {
   double matrix[4][3], first[4][3]; /* as light->matrix; at the start */
   double pivot[3];                  /* in lamp space: it is turned around the first page's centre */
+  int channel_count;
+  double gains[LIGHT_CHANNELS], first_gains[LIGHT_CHANNELS]; /* of its channels; at the start */
 };
 
 struct viewer_state {
@@ -31,6 +33,7 @@ struct viewer_state {
   struct viewer_light *lights; /* [light_count]; owned */
   int light_count;
   int selected; /* what is moved: 0: the camera; k: light number k - 1 */
+  int channel;  /* whose gain is changed: of the chosen light, or of the first */
   struct viewer_sum sum;
   int levels;      /* the highest */
   double exposure; /* radiance that is white; 0: by the picture */
@@ -44,6 +47,9 @@ void viewer_state_free(struct viewer_state *state); /* zeroed state allowed */
 
 /* Are two matrices the same? */
 bool viewer_same_place(const double a[4][3], const double b[4][3]);
+
+/* The number of the chosen light, or of the first. */
+int viewer_state_light(const struct viewer_state *state);
 
 /* A key is pressed; unknown ones change nothing. */
 void viewer_state_key(struct viewer_state *state, int key, bool shift);

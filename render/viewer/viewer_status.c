@@ -11,6 +11,7 @@ static const char *const help[] = {"",
                                    "PgUp PgDn  nearer, farther; light: up, down",
                                    "with Shift pan, or turn the light",
                                    "mouse      left: turn, right: move, wheel: zoom",
+                                   "c [ ]      channel: next, dimmer, brighter",
                                    "v V        fewer, more views",
                                    "d          shadows: on, off",
                                    "g G        fewer, more shadow maps",
@@ -44,10 +45,19 @@ static void say_selected(const struct viewer_picture *picture, const struct view
         picture->world->lights[state->selected - 1].pages[0].slab.name);
 }
 
+static void say_channel(const struct viewer_picture *picture, const struct viewer_state *state,
+                        struct writer *writer) {
+  const struct light *light = &picture->world->lights[viewer_state_light(state)];
+  if (light->channel_count == 0) return;
+  int n = state->channel % light->channel_count;
+  say(writer, "channel: %.30s, %d of %d, gain %.3g", light->channels[n].name, n + 1,
+      light->channel_count, light->channels[n].gain);
+}
+
 /* Of the chosen light, or the first; all pages count. */
 static void say_views(const struct viewer_picture *picture, const struct viewer_state *state,
                       struct writer *writer) {
-  int light = state->selected > 0 ? state->selected - 1 : 0;
+  int light = viewer_state_light(state);
   int number = light_pages(picture->world->lights, light);
   const struct light_axis *all = picture->world->lights[light].pages[0].axes;
   const struct light_axis *used = picture->sum.slides[number].page->axes;
@@ -105,6 +115,7 @@ void viewer_status_write(const struct viewer_picture *picture, const struct view
   if (state->text) {
     say(&writer, "%.1f ms a frame, %d x %d; h: help", 1e3 * seconds, text->width, text->height);
     say_selected(picture, state, &writer);
+    say_channel(picture, state, &writer);
     say_views(picture, state, &writer);
     say_error(picture, state, &writer);
     say_shadows(picture, state, &writer);

@@ -63,7 +63,8 @@ static void set_axis(struct light_axis *axis, int uv, int st) {
 /* Along z, at the origin. */
 static void make_light(int uv, int st, bool filled, struct light *light, struct light_page *page) {
   struct error error;
-  *page = (struct light_page){.slab = slab_default(), .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  *page = (struct light_page){
+      .slab = slab_default(), .gain = 1, .frame = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   struct slab *slab = &page->slab;
   const int samples[SLAB_AXES] = {uv, uv, st, st};
   const double st_window[4] = {-window, window, -window, window};

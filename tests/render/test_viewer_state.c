@@ -206,6 +206,35 @@ TEST(what_is_no_key_is_told) {
   }
 }
 
+/* In steps of a tenth, never below 0; those of the chosen light, or of the first. */
+TEST(channels_are_dimmed) {
+  static const char *texts[] = {"a.tif", "b.tif gain.warm=0.5"};
+  static const struct light_channel channels[2] = {{"warm", 0.5}, {"cold", 1}};
+  struct viewer_arguments arguments = {.mesh = "m.obj", .lights = texts, .world = &world};
+  memcpy(lights[1].channels, channels, sizeof channels);
+  lights[1].channel_count = 2;
+  struct viewer_state state = start();
+  press(&state, "c [ ]"); /* the first light has none */
+  char *command = viewer_command(&arguments, &state, 30, 20, "out.exr");
+  assert_non_null(strstr(command, "--light 'b.tif gain.warm=0.5' --camera"));
+  free(command);
+  press(&state, "2 ] ] ]");
+  assert_close(state.lights[1].gains[0], 0.8);
+  press(&state, "c ] c c [");
+  assert_close(state.lights[1].gains[0], 0.8);
+  assert_close(state.lights[1].gains[1], 1);
+  for (int k = 0; k < 12; ++k) press(&state, "[");
+  assert_true(state.lights[1].gains[1] == 0);
+  for (int n = 0; n < 2; ++n) lights[1].channels[n].gain = state.lights[1].gains[n];
+  command = viewer_command(&arguments, &state, 30, 20, "out.exr");
+  assert_non_null(strstr(command, " gain=1,0.5,0.25 gain.warm=0.8 gain.cold=0' --camera"));
+  free(command);
+  press(&state, "r");
+  assert_true(state.lights[1].gains[0] == 0.5 && state.lights[1].gains[1] == 1);
+  viewer_state_free(&state);
+  lights[1].channel_count = 0;
+}
+
 /* What has not moved is told as it was given; shells see one word a word. */
 TEST(the_command_is_complete) {
   static const char *texts[] = {"a lamp.tif at=0,0,0 gain=2", "b.tif matrix=..."};

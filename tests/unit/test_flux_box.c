@@ -130,6 +130,19 @@ TEST(test_lamp_counts_once) {
   for (int n = 0; n < 2; ++n) slab_free(&pages[n]);
 }
 
+/* Of two channels, in one aperture or one behind the other, all light counts. */
+TEST(test_channels_add_up) {
+  static const double window[4] = {-3, 3, -3, 3};
+  for (int ahead = 0; ahead <= 2; ahead += 2) {
+    struct slab pages[2] = {page_ahead(0), page_ahead(ahead)};
+    double flux[3];
+    strcpy(pages[1].channel, "cold");
+    assert_int_equal(flux_box_lamp(pages, 2, flux, NULL), RESULT_OK);
+    for (int c = 0; c < 3; ++c) assert_near(flux[c] / (8 * lambert_window(window)), 1, 0.001);
+    for (int n = 0; n < 2; ++n) slab_free(&pages[n]);
+  }
+}
+
 int main(void) {
   return testing_run(NULL, NULL);
 }

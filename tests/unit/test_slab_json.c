@@ -32,6 +32,33 @@ TEST(test_unknown_keys_are_kept) {
   }
 }
 
+/* A page's channel is a field of its own: it goes where the page goes, and only there. */
+TEST(test_channel) {
+  struct slab pages[2] = {slab_default(), slab_default()};
+  struct error error = {{0}};
+  strcpy(pages[1].channel, "warm");
+  for (int n = 0; n < 2; ++n) assert_ok(slab_alloc(&pages[n], &error), &error);
+  struct slab *got = write_and_load(scratch("c.tif"), pages, 2, SLAB_PRECISION_FLOAT);
+  char *text = json_of(&got[1], "channel", NULL);
+  assert_string_equal(text, "\"warm\"");
+  assert_string_equal(got[0].channel, "");
+  assert_string_equal(got[1].channel, "warm");
+  assert_false(slab_same_channel(&got[0], &got[1]));
+  got[1].channel[0] = 0;
+  struct slab *again = write_and_load(scratch("d.tif"), got, 2, SLAB_PRECISION_FLOAT);
+  assert_null(strstr(again[1].json, "channel"));
+  assert_refused(slab_json_parse("{\"format\": \"light-slab\", \"version\": 1, \"samples\": "
+                                 "[1, 1, 1, 1], \"center\": [0, 0, 0], \"u\": [1, 0, 0], \"v\": "
+                                 "[0, 0, 1], \"normal\": [0, -1, 0], \"st_window\": [-1, 1, -1, "
+                                 "1], \"channel\": 3}",
+                                 &pages[0], NULL, &error),
+                 &error, "\"channel\" must be a string", NULL);
+  free(text);
+  slab_file_free_all(got, 2);
+  slab_file_free_all(again, 2);
+  slab_free(&pages[1]);
+}
+
 TEST(test_provenance) {
   struct slab slab = slab_default();
   struct error error = {{0}};

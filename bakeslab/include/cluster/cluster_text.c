@@ -22,6 +22,7 @@ static void print_pages(const void *of, FILE *out) {
     for (int d = 0; d < CLUSTER_DISTANCES; ++d) percent[d] = 100 * page->error[d];
     const struct include_value values[] = {
         {"page", .number = p + 1},
+        {"channel", .text = page->frame.channel},
         {"aperture_u", .number = plane_edge(&page->frame, SLAB_U)},
         {"aperture_v", .number = plane_edge(&page->frame, SLAB_V)},
         {"lights", .number = page->count},
@@ -94,6 +95,14 @@ static void print_colour(const struct slab *frame, const struct cluster_light *l
   fprintf(out, "<%.10g, %.10g, %.10g>", light->rgb[0], light->rgb[1], light->rgb[2]);
 }
 
+static void print_channels(const void *of, FILE *out) {
+  const struct cluster *cluster = of;
+  for (int p = 0, row = 0; p < cluster->page_count; ++p)
+    for (int k = 0; k < cluster->pages[p].count; ++k)
+      fprintf(out, "%s%d", row++ ? ", " : "  ",
+              include_channel(&cluster->lamp, &cluster->pages[p].frame));
+}
+
 void cluster_print(const struct cluster *cluster, const struct include_text *text, FILE *out) {
   double narrowest = INFINITY;
   int most = 1;
@@ -113,6 +122,7 @@ void cluster_print(const struct cluster *cluster, const struct include_text *tex
       {"place_rows", .print = print_rows, .of = &(struct rows){cluster, print_place}},
       {"lobe_rows", .print = print_rows, .of = &(struct rows){cluster, print_lobe}},
       {"colour_rows", .print = print_rows, .of = &(struct rows){cluster, print_colour}},
+      {"channel_row", .print = print_channels, .of = cluster},
       {"least_width", .number = least_width},
       {0}};
   include_print(cluster_inc, text, &cluster->lamp, values, out);

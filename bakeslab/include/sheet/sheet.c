@@ -151,6 +151,27 @@ static enum result make_page(const struct slab *slab, int number, bool others, i
   return slab_flux_metric(slab, page->flux, error);
 }
 
+/* Joins pages whose samples can be added. */
+static void find_apertures(const struct slab *const *lit, int count, struct sheet *sheet) {
+  for (int p = 0; p < count; ++p) {
+    struct sheet_page *page = &sheet->pages[p];
+    page->first = p;
+    page->next = -1;
+    page->channel = include_channel(&sheet->lamp, lit[p]);
+    for (int k = p - 1; k >= 0 && page->first == p; --k) {
+      if (!slab_alike(lit[k], lit[p])) continue;
+      page->first = sheet->pages[k].first;
+      sheet->pages[k].next = p;
+    }
+  }
+}
+
+int sheet_apertures(const struct sheet *sheet) {
+  int count = 0;
+  for (int p = 0; p < sheet->page_count; ++p) count += sheet->pages[p].first == p;
+  return count;
+}
+
 enum result sheet_make(const struct slab *slabs, int count, int lights, double distance,
                        struct progress *progress, struct sheet *sheet, struct error *error) {
   const struct slab **lit = NULL;
@@ -161,9 +182,12 @@ enum result sheet_make(const struct slab *slabs, int count, int lights, double d
     sheet->pages = calloc((size_t)lit_count, sizeof *sheet->pages);
     if (!sheet->pages) result = result_no_memory(error);
   }
+  if (result == RESULT_OK) find_apertures(lit, lit_count, sheet);
+  bool others = false;
+  for (int p = 0; p < lit_count && result == RESULT_OK; ++p) others |= sheet->pages[p].first > 0;
   for (int p = 0; p < lit_count && result == RESULT_OK; ++p) {
     const struct shown shown = {progress, (double)p / lit_count, 1.0 / lit_count};
-    result = make_page(lit[p], (int)(lit[p] - slabs), lit_count > 1, lights, distance, &shown,
+    result = make_page(lit[p], (int)(lit[p] - slabs), others, lights, distance, &shown,
                        &sheet->pages[sheet->page_count++], error);
   }
   if (result == RESULT_OK) result = sheet_paint(sheet, error);

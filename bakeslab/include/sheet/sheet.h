@@ -11,8 +11,9 @@
  * and block means of them, halved (rounded up) down to 1x1, so that a scene
  * can ask for fewer lights. Each tile is a view with a ring of repeated edge
  * samples, because radiance is constant in the half cell at the window's
- * border. Rows of the image are counted upwards here, with growing v and t, as
- * POV-Ray's image_map does. */
+ * border. Pages that share an aperture and are alike, as those of channels are, share its lights:
+ * the pigment of its sheet is the mean of their tiles. Rows of the image are counted upwards here,
+ * with growing v and t, as POV-Ray's image_map does. */
 #ifndef SHEET_H
 #define SHEET_H
 
@@ -37,6 +38,8 @@ struct sheet_level {
 struct sheet_page {
   struct sheet_level levels[SHEET_MOST_LEVELS]; /* finest first */
   int level_count;
+  int first, next; /* pages of the same aperture: the first of them; the one after this, or -1 */
+  int channel;     /* include_channel */
   double flux[3];  /* at Scale 1, by slab_flux_metric */
   double faintest; /* smallest radiance above zero over the peak */
 };
@@ -62,6 +65,9 @@ void sheet_free(struct sheet *sheet);
 
 /* Most lights that the sheet has along an axis. */
 int sheet_most_lights(const struct sheet *sheet);
+
+/* How many apertures the pages have. */
+int sheet_apertures(const struct sheet *sheet);
 
 /* Whether the view (i, j) of a level is not entirely black. */
 bool sheet_is_lit(const struct slab *views, int i, int j);

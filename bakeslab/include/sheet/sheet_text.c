@@ -57,6 +57,7 @@ static void print_pages(const void *of, FILE *out) {
                         slab_spacing(slab, SLAB_V) / (M_PI * dropped));
     const struct include_value values[] = {
         {"page", .number = p + 1},
+        {"channel", .text = slab->channel},
         {"aperture_u", .number = plane_edge(slab, SLAB_U)},
         {"aperture_v", .number = plane_edge(slab, SLAB_V)},
         {"samples_s", .number = slab->samples[SLAB_S]},
@@ -110,6 +111,31 @@ static void print_level_rows(const void *of, FILE *out) {
     }
 }
 
+static void print_apertures(const void *of, FILE *out) {
+  const struct sheet *sheet = of;
+  for (int p = 0; p < sheet->page_count; ++p)
+    if (sheet->pages[p].first == p) fprintf(out, "%s%d", p ? ", " : "", p);
+}
+
+static void print_next(const void *of, FILE *out) {
+  const struct sheet *sheet = of;
+  for (int p = 0; p < sheet->page_count; ++p)
+    fprintf(out, "%s%d", p ? ", " : "", sheet->pages[p].next);
+}
+
+static void print_channels(const void *of, FILE *out) {
+  const struct sheet *sheet = of;
+  for (int p = 0; p < sheet->page_count; ++p)
+    fprintf(out, "%s%d", p ? ", " : "", sheet->pages[p].channel);
+}
+
+/* Whether a view of a page, or of the pages that follow in its aperture, is not black. */
+static bool is_lit(const struct sheet *sheet, int page, int level, int i, int j) {
+  for (; page >= 0; page = sheet->pages[page].next)
+    if (sheet_is_lit(&sheet->pages[page].levels[level].views, i, j)) return true;
+  return false;
+}
+
 static void print_lit_rows(const void *of, FILE *out) {
   const struct sheet *sheet = of;
   for (int p = 0, rows = 0; p < sheet->page_count; ++p)
@@ -118,7 +144,7 @@ static void print_lit_rows(const void *of, FILE *out) {
       for (int j = 0; j < views->samples[SLAB_V]; ++j) {
         fputs(rows++ ? ",\n  \"" : "  \"", out);
         for (int i = 0; i < views->samples[SLAB_U]; ++i)
-          putc(sheet_is_lit(views, i, j) ? '1' : '0', out);
+          putc(is_lit(sheet, p, k, i, j) ? '1' : '0', out);
         putc('"', out);
       }
     }
@@ -135,6 +161,10 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
                                          {"page_count", .number = sheet->page_count},
                                          {"page_rows", .print = print_page_rows, .of = sheet},
                                          {"frame_rows", .print = print_frame_rows, .of = sheet},
+                                         {"aperture_count", .number = sheet_apertures(sheet)},
+                                         {"aperture_row", .print = print_apertures, .of = sheet},
+                                         {"next_row", .print = print_next, .of = sheet},
+                                         {"channel_row", .print = print_channels, .of = sheet},
                                          {"level_count", .number = levels},
                                          {"level_rows", .print = print_level_rows, .of = sheet},
                                          {"lit_count", .number = rows},

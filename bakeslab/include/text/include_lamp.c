@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 const uint64_t include_hash_start = 14695981039346656037u;
 
@@ -39,6 +40,31 @@ struct slab include_frame(const struct slab *slab) {
   return frame;
 }
 
+int include_channel(const struct include_lamp *lamp, const struct slab *page) {
+  int n = 0;
+  if (!*page->channel) return 0;
+  while (n < lamp->channel_count && strcmp(lamp->channels[n], page->channel) != 0) ++n;
+  return n + 1;
+}
+
+/* Adds the page's channel to the lamp's. */
+static enum result add_channel(const struct slab *page, int number, struct include_lamp *lamp,
+                               struct error *error) {
+  char capitalised[2][SDL_IDENTIFIER_SIZE];
+  if (include_channel(lamp, page) <= lamp->channel_count) return RESULT_OK;
+  if (lamp->channel_count == INCLUDE_CHANNELS)
+    return result_fail(error, RESULT_BAD, "it has more than %d channels", INCLUDE_CHANNELS);
+  enum result result = sdl_capitalise(page->channel, capitalised[0], error);
+  for (int n = 0; n < lamp->channel_count && result == RESULT_OK; ++n)
+    if (sdl_capitalise(lamp->channels[n], capitalised[1], error) == RESULT_OK &&
+        !strcmp(capitalised[0], capitalised[1]))
+      result = result_fail(error, RESULT_BAD, "\"%s\" and \"%s\" differ in capitals only",
+                           page->channel, lamp->channels[n]);
+  if (result != RESULT_OK) return result_at(result, error, "page %d: its channel", number + 1);
+  strcpy(lamp->channels[lamp->channel_count++], page->channel);
+  return RESULT_OK;
+}
+
 enum result include_lit_pages(const struct slab *slabs, int count, struct include_lamp *lamp,
                               const struct slab ***lit, int *lit_count, struct error *error) {
   *lit_count = 0;
@@ -46,6 +72,7 @@ enum result include_lit_pages(const struct slab *slabs, int count, struct includ
   if (!*lit) return result_no_memory(error);
   for (int k = 0; k < count; ++k) {
     enum result result = check_radiance(&slabs[k], k, error);
+    if (result == RESULT_OK) result = add_channel(&slabs[k], k, lamp, error);
     if (result != RESULT_OK) return result;
     if (!(include_peak(&slabs[k]) > 0)) continue;
     (*lit)[(*lit_count)++] = &slabs[k];

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/sdl.h"
 #include "slab/slab.h"
 
 /* A place of an include's image, to see whether it is the right image and whether POV-Ray
@@ -16,19 +17,27 @@ struct include_check {
   int channel;   /* of them the one, between 0 and 1, that tells the gamma */
 };
 
+enum { INCLUDE_CHANNELS = 16 };
+
 struct include_lamp {
-  struct slab frame;          /* the first page with light, without samples or text */
-  double flux;                /* of all pages, its luminance, with lengths in lamp units */
+  struct slab frame; /* the first page with light, without samples or text */
+  double flux;       /* of all pages, its luminance, with lengths in lamp units */
+  char channels[INCLUDE_CHANNELS][SDL_IDENTIFIER_SIZE]; /* names of all pages' */
+  int channel_count;
   int black_pages;            /* pages left out because they hold no light */
   uint64_t stamp;             /* hash of all that the include says of its lights */
   struct include_check check; /* if it has an image */
 };
 
 /* The pages with light, in order: pointers into `slabs`, in an array that the caller frees;
- * sets frame, flux and black_pages. Refuses negative radiance, which no light of POV-Ray's can
- * give, and a lamp of which all pages are black. */
+ * sets frame, flux, black_pages and channels. Refuses negative radiance, which no light of
+ * POV-Ray's can give, a lamp of which all pages are black, and channels whose names are no
+ * identifiers. */
 enum result include_lit_pages(const struct slab *slabs, int count, struct include_lamp *lamp,
                               const struct slab ***lit, int *lit_count, struct error *error);
+
+/* The number of a page's channel, from 1 on; 0: it has none. */
+int include_channel(const struct include_lamp *lamp, const struct slab *page);
 
 /* Luminance of linear Rec. 709. */
 double include_luminance(const double rgb[3]);

@@ -10,10 +10,43 @@
 
 extern const char include_head_inc[], include_usage_inc[], include_units_inc[], include_scene_inc[],
     include_begin_inc[], include_image_inc[], include_checks_inc[], include_canned_inc[],
-    include_end_inc[];
+    include_channels_inc[], include_end_inc[];
 
 /* POV-Ray's objects end 1e10 units from the origin. */
 static const double most_width = 1e9;
+
+/* ---- Channels ---- */
+
+static const char
+    gain_row[] = "#ifndef(@_Gain_@{variable}) #declare @_Gain_@{variable} = 1; #end",
+    case_row[] = "    #case (@{number}) #local Gain_ = @_Gain_@{variable}; #break",
+    set_row[] = "  #if (strcmp(Name, \"@{channel}\") = 0) #declare @_Gain_@{variable} = Gain; "
+                "#local Known_ = 1; #end",
+    name_word[] = "@{channel}", variable_word[] = "@_Gain_@{variable}";
+
+/* What is printed of each channel, with what stands between two of them. */
+struct channel_rows {
+  const struct include_lamp *lamp;
+  const char *between, *format; /* of the lamp's name, the variable's end, the number, the name */
+  const char *name;
+};
+
+static void print_channels(const void *of, FILE *out) {
+  const struct channel_rows *rows = of;
+  const struct include_lamp *lamp = rows->lamp;
+  for (int n = 0; n < lamp->channel_count; ++n) {
+    char variable[SDL_IDENTIFIER_SIZE] = "", number[16];
+    struct error ignored;
+    sdl_capitalise(lamp->channels[n], variable, &ignored); /* include_lit_pages has tried it */
+    snprintf(number, sizeof number, "%d", n + 1);
+    if (n) fputs(rows->between, out);
+    const struct include_value values[] = {{"variable", .text = variable},
+                                           {"channel", .text = lamp->channels[n]},
+                                           {"number", .text = number},
+                                           {0}};
+    include_fill(rows->format, rows->name, values, out);
+  }
+}
 
 /* Where things are for which the header tells an exposure, in aperture widths. */
 static const double exposed_at = 4;
@@ -46,9 +79,21 @@ void include_print(const char *template, const struct include_text *text,
   uint64_t hash = housing ? include_hash(lamp->stamp, housing, strlen(housing)) : lamp->stamp;
   char stamp[17];
   snprintf(stamp, sizeof stamp, "%016" PRIx64, hash);
+  const struct channel_rows gains = {lamp, "\n", gain_row, text->name},
+                            cases = {lamp, "\n", case_row, text->name},
+                            sets = {lamp, "\n", set_row, text->name},
+                            names = {lamp, ", ", name_word, text->name},
+                            variables = {lamp, ", ", variable_word, text->name};
   const struct brightness bright = find_brightness(lamp);
   const bool watts = !strcmp(lamp->frame.radiance_unit, "W/(sr m2)");
   const struct include_value shared[] = {
+      {"channels", .part = include_channels_inc},
+      {"channel_count", .number = lamp->channel_count},
+      {"gain_rows", .print = print_channels, .of = &gains},
+      {"case_rows", .print = print_channels, .of = &cases},
+      {"name_rows", .print = print_channels, .of = &sets},
+      {"channel_names", .print = print_channels, .of = &names},
+      {"channel_variables", .print = print_channels, .of = &variables},
       {"head", .part = include_head_inc},
       {"usage", .part = include_usage_inc},
       {"units", .part = include_units_inc},

@@ -22,8 +22,8 @@ struct include_text {
   const char *chosen;     /* why it is of this kind, or NULL; one line */
 };
 
-/* Prints the whole include. A template may name, beside `values`, black_pages and most_width
- * (of a lamp in the scene), and the parts
+/* Prints the whole include. A template may name, beside `values`, black_pages, channel_count and
+ * most_width (of a lamp in the scene), and the parts
  *   head, usage, units  what it is, how it is used, its units
  *   begin, end          guard and stamp; the housing's macro. Only the first of two includes of
  *                       one name declares it; the second finds out whether it is the same lamp
@@ -34,7 +34,8 @@ struct include_text {
  *                       vector; @_Strength(Colour) stops where POV-Ray's numbers cannot hold a
  *                       lamp whose brightest light has this colour and a fade distance of 1e-3
  *                       aperture widths, @_Fits(Width) where it is wider in the scene than
- *                       most_width
+ *                       most_width; where there are channels, @_Channel_Gain(Number) is the gain
+ *                       of one
  *   canned              begins the macro @_Canned(Scale, Gain): declares Size_ and Gain_
  * The caller checks the stream. */
 void include_print(const char *template, const struct include_text *text,
