@@ -34,10 +34,10 @@ def lamp_frame:
       width: ([$pages[] | length_of(.u), length_of(.v)] | max),
       reach: ([$corners[] | dot(plus(.; times($middle; -1)); $e)] | max),
       low: ($middle[1] - ([$corners[][1]] | min)),
-      spread: (if ($pages | length) > 1 then 1.3
+      spread: (if ([$pages[].center] | unique | length) > 1 then 1.3
                else [[$pages[0].st_window[] | fabs] | max*1.15, 0.25] | max | [., 1.3] | min end),
       focus: $pages[0].st_distance,
-      flux: ([range(3) as $c | [$pages[].flux[$c]] | add] | max), around: ($pages | length > 1)
+      flux: ([range(3) as $c | [$pages[].flux[$c]] | add] | max), around: ([$pages[].center] | unique | length > 1)
     };
 
 # A quadrangle as OBJ text: its corner, two edges, and its normal. Counter-clockwise as seen from

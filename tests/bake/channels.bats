@@ -3,7 +3,7 @@
 bats_require_minimum_version 1.5.0
 load bake
 
-setup() { cd "$BATS_TEST_TMPDIR"; }
+setup() { cd "$BATS_TEST_TMPDIR" || return; }
 
 # lamp FILE TEXT: a white box, open towards -y, with these sources in it.
 lamp() {
@@ -68,7 +68,7 @@ look() { rays | "$BAKESLAB" lookup "$1"; }
   [[ $output == *"gain.warm=G is there twice" ]]
   "$BAKESLAB" include two.tif -o two.inc
   printf 'v -9 -9 -9\nv 9 -9 -9\nv 0 -9 9\nf 1 2 3\n' >floor.obj
-  "$RENDERSLAB" pov floor.obj --light 'two.tif gain.cold=0.5' --camera 'from=0,-2,-9 at=0,-9,0' -o x.pov
+  "$RENDERSLAB" pov floor.obj --light 'two.tif gain.cold=0.5' --camera 'from=0,-2,-9 at=0,-9,0' --repair -o x.pov
   [[ $(<x.pov) == *$'Two_Canned_Channel("warm", 1)\nTwo_Canned_Channel("cold", 0.5)\nobject { Two_Canned('* ]]
 }
 

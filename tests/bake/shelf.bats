@@ -19,7 +19,7 @@ shelve() {
   [[ " $(calls_for "$lamp") " != *" caustics "* ]] || effects=caustics
   {
     povray "+I$lamp" "+L$CANNED_INCLUDE" "+L$(dirname "$lamp")" +W16 +H12 +Q8 +WT1 -D -GA +FP8 "+O$name.ppm" &&
-      bake "$lamp" -q -j 1 -o "$name.tif" --uv 2x2 --st 8x8 --rays 1 --effects "$effects" &&
+      bake "$lamp" -q -j 1 -o "$name.tif" --uv 4x4 --st 8x8 --rays 2 --effects "$effects" &&
       "$BAKESLAB" info "$name.tif" >"$name.info"
   } >"$name.log" 2>&1 || tail -n 5 "$name.log" >"$name.failed"
 }

@@ -339,28 +339,6 @@ TEST(lights_move) {
   viewer_picture_free(&picture);
 }
 
-/* A channel that is dimmed, and put back; the lamp's own face is dimmed too. */
-TEST(channels_are_dimmed) {
-  static const struct viewer_sum sum = {.level = 0, .shadows = true, .groups = 2};
-  struct light *light = &all.lights[0];
-  struct error error;
-  struct viewer_picture picture;
-  strcpy(light->channels[light->channel_count++].name, "warm");
-  strcpy(light->pages[0].slab.channel, "warm");
-  make_picture(&sum, &picture);
-  struct picture bright = take(&picture, 1);
-  viewer_picture_dim(&picture, 0, 0, 0.25);
-  assert_int_equal(viewer_picture_set_sum(&picture, &sum, &error), RESULT_OK);
-  struct picture dim = take(&picture, 1);
-  for (int c = 0; c < 3; ++c) light->gain[c] /= 4;
-  light_set_channel(light, 0, 1);
-  expect_same(dim, take_anew(&sum), 3e-6, 0);
-  for (int c = 0; c < 3; ++c) light->gain[c] *= 4;
-  assert_int_equal(viewer_picture_set_sum(&picture, &sum, &error), RESULT_OK);
-  expect_same(bright, take(&picture, 1), 3e-6, 0);
-  viewer_picture_free(&picture);
-}
-
 /* A page with the whole scene behind it is skipped. */
 TEST(pages_behind_are_skipped) {
   static const double away[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -0.5, 0}};

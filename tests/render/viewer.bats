@@ -7,7 +7,7 @@ setup_file() {
   cd "$BATS_FILE_TMPDIR" || return
   cp "$BATS_TEST_DIRNAME"/scenes/{gloss,patches}.{obj,mtl} .
   oiiotool --pattern checker:width=4:height=4:color1=0.9,0.8,0.1:color2=0.1,0.3,0.9 16x16 3 -d uint8 -o texture.png
-  letter_slab letter_f.tif letter_f 4 3 '"center": [0, 0, 0], "u": [0.2, 0, 0], "v": [0, 0, 0.16], "normal": [0, -1, 0], "st_window": [-1, 1, -1.2, 0.9], "st_distance": 0.8'
+  letter_slab letter_f.tif letter_f 4 3 '"center": [0, 0, 0], "u": [0.2, 0, 0], "v": [0, 0, 0.16], "normal": [0, -1, 0], "st_window": [-1, 1, -1.2, 0.9], "st_distance": 0.8, "channel": "warm"'
 }
 
 setup() {
@@ -43,13 +43,13 @@ made_again() {
   below 1e-6 "$mean" && below "$error" 0.1 && [ "$count" -le 20 ]
 }
 
-@test "keys turn, move and save; the command that is printed makes the picture again" {
+@test "keys turn, move, dim and save; the command that is printed makes the picture again" {
   run -0 --separate-stderr view gloss.obj --light 'letter_f.tif at=0.3,1.2,0.1 toward=0.2,0,0.3 gain=3' \
-    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' --keys 's left left up 1 right shift+up shift+right s q'
+    --camera 'from=0.3,2,-2.2 at=0,0,0.1 fov=50' --keys 's left left up 1 right shift+up shift+right [ [ [ ] s q'
   [ "${#lines[@]}" -eq 2 ]
   # shellcheck disable=SC2154 # set by run
   [ -z "$stderr" ]
-  [[ ${lines[0]} == *"at=0.3,1.2,0.1 toward=0.2,0,0.3 gain=3"* && ${lines[1]} == *"letter_f.tif matrix="* ]]
+  [[ ${lines[0]} == *"at=0.3,1.2,0.1 toward=0.2,0,0.3 gain=3"* && ${lines[1]} == *"letter_f.tif matrix="*" gain.warm=0.8"* ]]
   made_again "${lines[0]}"
   made_again "${lines[1]}"
   [[ $(oiiotool --info -v view-2.exr) == *"matrix="* ]]
