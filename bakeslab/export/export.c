@@ -7,6 +7,7 @@
 #include "export/export_cycles.h"
 #include "export/export_folder.h"
 #include "export/export_mitsuba.h"
+#include "export/export_overlap.h"
 #include "export/export_photometry.h"
 #include "export/export_radiance.h"
 #include "export/export_rays.h"
@@ -48,10 +49,13 @@ enum result export_make(const struct export_kind *kind, const struct slab *slabs
                         struct error *error) {
   if (kind->ending) return kind->write(slabs, count, wish, output, error);
   struct export_folder folder = {0};
-  enum result result = export_folder_begin(&folder, output, force, error);
-  if (result != RESULT_OK) return result;
-  result = kind->write(slabs, count, wish, folder.temporary, error);
+  struct export_joined joined;
+  enum result result = export_join(slabs, count, &joined, error);
+  if (result == RESULT_OK) result = export_folder_begin(&folder, output, force, error);
+  if (result == RESULT_OK)
+    result = kind->write(joined.pages, joined.count, wish, folder.temporary, error);
   if (result == RESULT_OK) result = export_folder_commit(&folder, error);
   export_folder_abandon(&folder);
+  export_joined_free(&joined);
   return result;
 }

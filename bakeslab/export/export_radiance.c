@@ -8,7 +8,6 @@
 #include "export/export_frame.h"
 #include "export/export_provenance.h"
 #include "export/export_text.h"
-#include "export/radiance_overlap.h"
 #include "export/radiance_page.h"
 #include "export/radiance_source.h"
 #include "file/json_text.h"
@@ -24,7 +23,6 @@ static const double distances[DISTANCES] = {1, 2, 4}; /* that are told, in apert
 /* A page with light. */
 struct page {
   const struct slab *slab;
-  struct slab sum; /* of pages that share the aperture, or zero; owned */
   int number;
   struct radiance_source source;
   double error[DISTANCES];
@@ -57,26 +55,10 @@ static void cut_aperture(const struct export_wish *wish, struct page *page) {
     page->error[k] = radiance_source_error(page->slab, &page->source, distances[k]);
 }
 
-/* A page with light: a new one, or added to that with which it shares an aperture. */
-static enum result add_page(struct lamp *lamp, const struct slab *slab, int number,
-                            struct error *error) {
-  struct page *page = lamp->pages, *end = lamp->pages + lamp->count;
-  while (page < end && !radiance_overlap(page->slab, slab)) ++page;
-  if (page == end) {
-    *page = (struct page){.slab = slab, .number = number};
-    snprintf(page->stem, sizeof page->stem, "%s_%d", lamp->wish->name, number);
-    ++lamp->count;
-    return RESULT_OK;
-  }
-  if (!slab_alike(page->slab, slab))
-    return result_fail(error, RESULT_BAD,
-                       "pages %d and %d overlap, and Radiance sees one of two polygons in a place; "
-                       "they are added up only where all but their samples is alike: bake them "
-                       "with one --uv, --st and window",
-                       page->number, number);
-  enum result result = radiance_overlap_add(page->slab, slab, &page->sum, error);
-  page->slab = &page->sum;
-  return result;
+static void add_page(struct lamp *lamp, const struct slab *slab, int number) {
+  struct page *page = &lamp->pages[lamp->count++];
+  *page = (struct page){.slab = slab, .number = number};
+  snprintf(page->stem, sizeof page->stem, "%s_%d", lamp->wish->name, number);
 }
 
 static enum result find_pages(const struct slab *slabs, int count, struct lamp *lamp,
@@ -85,9 +67,8 @@ static enum result find_pages(const struct slab *slabs, int count, struct lamp *
   if (!lamp->pages) return result_no_memory(error);
   for (int k = 0; k < count; ++k) {
     enum result result = check_radiance(&slabs[k], k + 1, error);
-    if (result == RESULT_OK && slab_is_lit(&slabs[k]))
-      result = add_page(lamp, &slabs[k], k + 1, error);
     if (result != RESULT_OK) return result;
+    if (slab_is_lit(&slabs[k])) add_page(lamp, &slabs[k], k + 1);
   }
   for (int k = 0; k < lamp->count; ++k) cut_aperture(lamp->wish, &lamp->pages[k]);
   if (lamp->count) return RESULT_OK;
@@ -235,7 +216,6 @@ enum result export_radiance(const struct slab *slabs, int count, const struct ex
                                  lamp.pages[k].stem, error);
   if (result == RESULT_OK) result = record(slabs, count, &lamp, path, error);
   if (result == RESULT_OK) tell(&lamp);
-  for (int k = 0; k < lamp.count; ++k) slab_free(&lamp.pages[k].sum);
   free(lamp.pages);
   return result;
 }

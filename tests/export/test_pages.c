@@ -157,6 +157,34 @@ TEST(rays_by_the_text) {
   }
 }
 
+/* Two channels through one aperture become one page, their sum; what cannot be added is refused. */
+TEST(channels_are_added_up) {
+  const struct lamp *lamp = &lamps[4];
+  struct slab slabs[LAMP_PAGES];
+  struct page pages[LAMP_PAGES];
+  uint64_t seed = 5;
+  char command[512], path[256];
+  lamp_make(lamp, slabs);
+  memcpy(slabs[1].center, slabs[0].center, sizeof slabs[1].center);
+  memcpy(slabs[1].normal, slabs[0].normal, sizeof slabs[1].normal);
+  strcpy(slabs[0].channel, "warm");
+  strcpy(slabs[1].channel, "cold");
+  snprintf(path, sizeof path, "%s", lamp_save(lamp, slabs));
+  for (int k = 0; k < RAYS; ++k) lamp_ray(lamp, slabs, &seed, rays[k]);
+  lamp_lookup(path, rays, RAYS, wanted);
+  assert_int_equal(read_pages(lamp_export(path, "out", "--as mitsuba"), lamp->name, pages), 1);
+  for (int k = 0; k < RAYS; ++k) see(pages, 1, rays[k], got[k]);
+  check(lamp, 1e-6);
+  slabs[1].st_window[0] -= 0.1;
+  lamp_save(lamp, slabs);
+  snprintf(command, sizeof command,
+           "\"$BAKESLAB\" export '%s' --as cycles -o '%s' 2>&1 | grep -q '%s'", path,
+           scratch("none"), "pages 1 and 2 overlap");
+  assert_int_equal(system(command), 0);
+  slab_free(&pages[0].slab);
+  lamp_free(slabs);
+}
+
 /* Whether a script's exit status is that of a python3 without the engine. */
 static bool lacks(const char *python, const char *script) {
   char command[512];
