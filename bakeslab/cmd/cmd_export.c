@@ -33,6 +33,8 @@ static const char doc[] =
     "  bakeslab export lamp.tif -o fine_radiance --as radiance --polygons 4x4\n"
     "  bakeslab export lamp.tif -o lamp_radiance --as radiance --tolerance 0.05 \\\n"
     "    --force\n"
+    "  bakeslab export lamp.tif -o lamp_mitsuba --as mitsuba\n"
+    "  bakeslab export lamp.tif -o plain_mitsuba --as mitsuba --plain\n"
     "  bakeslab export lamp.tif -o lamp.ies\n"
     "  bakeslab export lamp.tif -o lamp.ldt --tolerance 0.02\n"
     "  bakeslab export lamp.tif -o lamp.tm25ray --rays 50000";
@@ -54,12 +56,16 @@ static const struct argp_option options[] = {
     {"name", 'n', "NAME", 0, "Call the lamp NAME rather than what the slab says", 1},
     {"tolerance", KEY(wish.tolerance), "T", 0,
      "Relative error of what a kind approximates (default 0.01). radiance: of irradiance one "
-     "aperture width away, without --polygons; ies, ldt: of intensities between the angles, as a "
+     "aperture width away, without --polygons; mitsuba --plain: of irradiance four widths away; "
+     "ies, ldt: of intensities between the angles, as a "
      "part of the largest",
      2},
     {"polygons", KEY(wish.polygons), "NxM", 0,
      "radiance: cut each aperture into so many sources along u and v; the default follows from "
      "the tolerance",
+     2},
+    {"plain", KEY(wish.plain), NULL, 0,
+     "mitsuba: use Mitsuba's own projectors, no plugin: not exact, and the lamp's face is not seen",
      2},
     {"blend", KEY(wish.blend), NULL, 0,
      "cycles: make NAME.blend, too, with the Blender that BLENDER in the environment names, or is "
@@ -75,6 +81,7 @@ static const struct value values[] = {
     {KEY(force), VALUE_FLAG, ARGUMENT(force), 0, 0},
     {'n', VALUE_TEXT, ARGUMENT(wish.name), 0, 0},
     {KEY(wish.tolerance), VALUE_POSITIVE, ARGUMENT(wish.tolerance), 0, 0},
+    {KEY(wish.plain), VALUE_FLAG, ARGUMENT(wish.plain), 0, 0},
     {KEY(wish.blend), VALUE_FLAG, ARGUMENT(wish.blend), 0, 0},
     {KEY(wish.rays), VALUE_WHOLE, ARGUMENT(wish.rays), 1, 1e9},
     {KEY(wish.seed), VALUE_WHOLE, ARGUMENT(wish.seed), 0, 1e9},
@@ -92,6 +99,8 @@ static void check_arguments(struct arguments *arguments, struct argp_state *stat
   if (arguments->kind && arguments->wish.polygons[0] &&
       strcmp(arguments->kind->name, "radiance") != 0)
     argp_error(state, "--polygons: is for --as radiance only");
+  if (arguments->kind && arguments->wish.plain && strcmp(arguments->kind->name, "mitsuba") != 0)
+    argp_error(state, "--plain: is for --as mitsuba only");
   if (arguments->kind && arguments->wish.blend && strcmp(arguments->kind->name, "cycles") != 0)
     argp_error(state, "--blend: is for --as cycles only");
 }

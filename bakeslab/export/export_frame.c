@@ -36,3 +36,21 @@ struct export_scene export_scene_of(const struct slab *slab, export_turn *turn) 
   turn(up, scene.up);
   return scene;
 }
+
+void export_put_matrix(const double x[3], const double y[3], const double z[3],
+                       const double origin[3], FILE *out) {
+  for (int c = 0; c < 3; ++c) fprintf(out, "%.15g %.15g %.15g %.15g ", x[c], y[c], z[c], origin[c]);
+  fputs("0 0 0 1", out);
+}
+
+void export_put_floor(const void *of, FILE *out) {
+  const struct export_scene *scene = of;
+  const double *corners = scene->floor;
+  double x[3], y[3], middle[3];
+  for (int c = 0; c < 3; ++c) {
+    x[c] = (corners[3 + c] - corners[c]) / 2;
+    y[c] = (corners[9 + c] - corners[c]) / 2;
+    middle[c] = (corners[6 + c] + corners[c]) / 2;
+  }
+  export_put_matrix(x, y, scene->up, middle, out);
+}

@@ -3,6 +3,8 @@
 #ifndef EXPORT_FRAME_H
 #define EXPORT_FRAME_H
 
+#include <stdio.h>
+
 #include "slab/slab.h"
 
 /* A lamp point or vector in the space of another program. 0 stays 0, not -0. */
@@ -19,5 +21,11 @@ struct export_scene {
 };
 
 struct export_scene export_scene_of(const struct slab *slab, export_turn *turn);
+
+/* For Mitsuba's XML: the 4x4 matrix of these columns, row by row; that which makes the square
+ * [-1, 1]^2 at z = 0 the floor of a scene, a struct export_scene. */
+void export_put_matrix(const double x[3], const double y[3], const double z[3],
+                       const double origin[3], FILE *out);
+void export_put_floor(const void *scene, FILE *out);
 
 #endif

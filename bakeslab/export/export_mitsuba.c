@@ -2,28 +2,24 @@
 
 #include "base/files.h"
 #include "export/export_frame.h"
+#include "export/export_mitsuba_plain.h"
 #include "export/export_pages.h"
 #include "export/export_provenance.h"
 #include "export/export_text.h"
 #include "file/json_text.h"
 
-extern const char export_slab_emitter[], export_mitsuba_xml[], export_mitsuba_example[],
-    export_mitsuba_md[];
+extern const char export_slab_emitter[], export_slab_cells[], export_mitsuba_xml[],
+    export_mitsuba_example[], export_mitsuba_md[];
 
 static const double ray_error = 1e-4; /* of single precision, by the largest radiance */
+
+enum { example_samples = 256 };
 
 struct lamp {
   const struct slab *slabs;
   int count;
   const char *name;
 };
-
-/* The matrix, row by row, of these columns. */
-static void put_matrix(const double x[3], const double y[3], const double z[3],
-                       const double origin[3], FILE *out) {
-  for (int c = 0; c < 3; ++c) fprintf(out, "%.15g %.15g %.15g %.15g ", x[c], y[c], z[c], origin[c]);
-  fputs("0 0 0 1", out);
-}
 
 /* Turns the rectangle [-1, 1]^2 at z = 0 into the aperture. */
 static void put_page(const struct lamp *lamp, int page, int number, FILE *out) {
@@ -40,13 +36,14 @@ static void put_page(const struct lamp *lamp, int page, int number, FILE *out) {
   fprintf(out, "%s  <shape type=\"rectangle\" id=\"%s_%d\">\n", number ? "\n" : "", lamp->name,
           page + 1);
   fputs("    <transform name=\"to_world\">\n      <matrix value=\"", out);
-  put_matrix(u, v, n, center, out);
+  export_put_matrix(u, v, n, center, out);
   fputs("\"/>\n      <matrix value=\"$place\"/>\n    </transform>\n    <bsdf type=\"null\"/>\n",
         out);
   fprintf(out,
           "    <emitter type=\"slab\">\n      <string name=\"filename\" value=\"%s.json\"/>\n"
           "      <integer name=\"page\" value=\"%d\"/>\n"
-          "      <float name=\"gain\" value=\"$gain\"/>\n    </emitter>\n  </shape>",
+          "      <float name=\"gain\" value=\"$gain\"/>\n"
+          "      <string name=\"sampling\" value=\"$sampling\"/>\n    </emitter>\n  </shape>",
           lamp->name, number);
 }
 
@@ -54,19 +51,6 @@ static void put_pages(const void *of, FILE *out) {
   const struct lamp *lamp = of;
   for (int k = 0, number = 0; k < lamp->count; ++k)
     if (slab_is_lit(&lamp->slabs[k])) put_page(lamp, k, number++, out);
-}
-
-/* The floor, for a rectangle. */
-static void put_floor(const void *of, FILE *out) {
-  const struct export_scene *scene = of;
-  const double *corners = scene->floor;
-  double x[3], y[3], middle[3];
-  for (int c = 0; c < 3; ++c) {
-    x[c] = (corners[3 + c] - corners[c]) / 2;
-    y[c] = (corners[9 + c] - corners[c]) / 2;
-    middle[c] = (corners[6 + c] + corners[c]) / 2;
-  }
-  put_matrix(x, y, scene->up, middle, out);
 }
 
 static enum result write_texts(const struct slab *slabs, int count, const struct export_wish *wish,
@@ -79,23 +63,26 @@ static enum result write_texts(const struct slab *slabs, int count, const struct
   const struct slab *first = export_pages_first(slabs, count);
   const struct export_scene scene = export_scene_of(first, export_y_up);
   const struct include_value values[] = {{"shapes", .print = put_pages, .of = &lamp},
-                                         {"floor", .print = put_floor, .of = &scene},
+                                         {"floor", .print = export_put_floor, .of = &scene},
                                          {"eye", .numbers = scene.eye},
                                          {"target", .numbers = scene.target},
                                          {"up", .numbers = scene.up},
                                          {"metres", .number = first->metres_per_unit},
                                          {"unit", .text = first->radiance_unit},
                                          {"rays", .number = ray_error},
+                                         {"samples", .number = example_samples},
                                          {0}};
   return export_texts(folder, wish->name, texts, values, error);
 }
 
 enum result export_mitsuba(const struct slab *slabs, int count, const struct export_wish *wish,
                            const char *path, struct error *error) {
+  if (wish->plain) return export_mitsuba_plain(slabs, count, wish, path, error);
   enum result result = export_pages_write(slabs, count, wish, path, error);
   if (result == RESULT_OK) result = write_texts(slabs, count, wish, path, error);
   if (result == RESULT_OK)
     result = files_write(path, "slab_emitter.py", export_slab_emitter, error);
+  if (result == RESULT_OK) result = files_write(path, "slab_cells.py", export_slab_cells, error);
   if (result != RESULT_OK) return result;
   unsigned long mark = json_mark();
   json_t *errors = json_pack("{s:f, s:s}", "rays_by_largest_radiance", ray_error, "why",

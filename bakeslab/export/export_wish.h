@@ -13,6 +13,7 @@ struct export_wish {
   const char *command;    /* the whole command line */
   double tolerance;       /* relative error of what the kind approximates */
   int polygons[2];        /* of an aperture, along u and v; 0: as many as the tolerance asks */
+  bool plain;             /* mitsuba: by its own projectors */
   bool blend;             /* cycles: make NAME.blend, too */
   int rays;               /* of a ray file */
   int seed;               /* of what is drawn at random */

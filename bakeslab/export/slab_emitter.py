@@ -9,12 +9,10 @@
 #
 # Sampling: a receiver at (q, r, z) in the page's frame sees the point a with the slope
 # s = q/z + (kappa - 1/z) a, so that the window [s0, s1] leaves an interval of a.
-# 1. Cells: means of radiance times cos^4 over cells of (u, v, s, t), and those of 2x2 cells in
-#    (u, v) and in (s, t), again and again.
-# 2. A point of the aperture is found from the whole to its quarters, and so on (hierarchical
-#    sample warping, Clarberg et al. 2005): a quarter's weight is its visible area times the mean
-#    over the cell of slopes, large enough, through which the receiver sees it.
-# 3. A ray from the lamp: (u, v) by the quarters of all light, (s, t) by those of the chosen cell.
+# 1. A point of the aperture is found from the whole to its quarters, and so on (slab_cells.py): a
+#    quarter's weight is its visible area times the mean over the cells of slopes, large enough,
+#    through which the receiver sees it.
+# 2. A ray from the lamp: (u, v) by the quarters of all light, (s, t) by those of the chosen cell.
 import itertools
 import json
 import os
@@ -23,8 +21,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-JIT = dr.is_jit_v(mi.Float)
-MOST_UV, MOST_ST = 16, 256  # cells an axis
+from slab_cells import JIT, MOST_UV, Cells, bend, descend, fetch, quarter, ratio, table, taps
 
 
 def read(path):
@@ -54,141 +51,6 @@ def lamp(path, to_world=None, gain=1.0, sampling='energy'):
             'emitter': {'type': 'slab', 'filename': path, 'page': number, 'gain': float(gain),
                         'sampling': sampling}}
         for number, page in enumerate(read(path))}
-
-
-def cell_means(count, cells):
-    """Matrix: the means, over cells of an axis, of what is linear between `count` samples."""
-    points = 8 * max(1, count // cells)
-    x = np.clip((np.arange(cells * points) + .5) / (cells * points) * count - .5, 0, count - 1)
-    low = np.minimum(x.astype(int), max(count - 2, 0))
-    rows, matrix = np.arange(len(x)), np.zeros((len(x), count))
-    matrix[rows, low] += 1 - (x - low)
-    matrix[rows, np.minimum(low + 1, count - 1)] += x - low
-    return matrix.reshape(cells, points, count).mean(1)
-
-
-def halve(cells, axis):
-    """Means of two neighbours; a single cell stays."""
-    if cells.shape[axis] == 1:
-        return cells
-    pairs = cells.shape[:axis] + (cells.shape[axis] // 2, 2) + cells.shape[axis + 1:]
-    return cells.reshape(pairs).mean(axis + 1)
-
-
-def spread(cells, axis):
-    """Each cell and a share of its neighbours, so that a slope near a border finds both sides."""
-    count, sides = cells.shape[axis], [(int(k == axis),) * 2 for k in range(4)]
-    wide = np.pad(cells, sides, 'edge')
-    return sum(wide.take(range(k, k + count), axis) * w for k, w in enumerate((.25, .5, .25)))
-
-
-class Cells:
-    """Means over cells of (v, u, t, s), at every level: level 0 of uv is the whole aperture, level
-    0 of st the finest. Of a uv level, `first` is where it begins in `data`, `counts` its size."""
-
-    def __init__(self, page, light):
-        nu, nv, ns, nt = page['samples']
-        power = [1 << max(0, n - 1).bit_length() for n in (nu, nv, ns, nt)]
-        self.uv = [min(n, MOST_UV) for n in power[:2]]
-        self.st = [min(n, MOST_ST) for n in power[2:]]
-        matrices = [cell_means(n, c) for n, c in
-                    ((nv, self.uv[1]), (nu, self.uv[0]), (nt, self.st[1]), (ns, self.st[0]))]
-        y = np.abs(light) @ np.array((.2126, .7152, .0722))
-        cells = np.einsum('jv,iu,lt,ks,vuts->jilk', *matrices, y, optimize=True)
-        cells = cells * self.cosine4(page)
-        by_level = [cells]
-        while by_level[0].shape[0] > 1 or by_level[0].shape[1] > 1:
-            by_level.insert(0, halve(halve(by_level[0], 0), 1))
-        self.most = len(by_level) - 1
-        self.mips = max(self.st).bit_length()
-        sizes = [max(1, self.st[0] >> mip) * max(1, self.st[1] >> mip) for mip in range(self.mips)]
-        self.before = table(np.cumsum([0] + sizes[:-1]), mi.UInt32)
-        self.counts, self.first, data = [], [], []
-        for cells in by_level:
-            self.counts.append(cells.shape[1::-1])
-            self.first.append(sum(map(len, data)))
-            for _ in range(self.mips):
-                data.append(spread(spread(cells, 2), 3).ravel())
-                cells = halve(halve(cells, 2), 3)
-        self.data = table(np.concatenate(data), mi.Float)
-
-    def cosine4(self, page):
-        """cos^4 of the middle of each cell: d(solid angle) cos = cos^4 ds dt."""
-        s0, s1, t0, t1 = page['st_window']
-        kappa = 1 / page['st_distance'] if page.get('st_distance') else 0.0
-        middles = [(np.arange(n) + .5) / n for n in (*self.uv, *self.st)]
-        a = (middles[0] - .5) * np.linalg.norm(page['u'])
-        b = (middles[1] - .5) * np.linalg.norm(page['v'])
-        s, t = s0 + (s1 - s0) * middles[2], t0 + (t1 - t0) * middles[3]
-        x = (s[None, :] - kappa * a[:, None])[None, :, None, :]
-        y = (t[None, :] - kappa * b[:, None])[:, None, :, None]
-        return 1 / (1 + x * x + y * y) ** 2
-
-    def size(self, mip):
-        """Cells along s and t."""
-        return [dr.maximum(mi.UInt32(n) >> mip, 1) for n in self.st]
-
-    def at(self, level, blocks, mip, slopes, active):
-        """The mean of a block of the aperture, of 2^level x 2^level, towards cell `slopes`."""
-        known = min(level, self.most)
-        i, j = (mi.UInt32(block) >> (level - (n.bit_length() - 1))
-                for block, n in zip(blocks, self.counts[known]))
-        nu, nv = self.counts[known]
-        width, height = self.size(mip)
-        start = nu * nv * fetch(self.before, mi.UInt32(mip), active) + self.first[known]
-        cell = ((j * nu + i) * height + slopes[1]) * width + slopes[0]
-        return fetch(self.data, start + cell, active)
-
-
-def table(values, kind):
-    """For fetch()."""
-    if not JIT:
-        return np.asarray(values).tolist()
-    return kind(np.asarray(values, np.uint32 if kind is mi.UInt32 else np.float32))
-
-
-def fetch(data, index, active, kind=None):
-    """An entry of a table; of the kind mi.Color3f, three neighbours."""
-    if JIT:
-        return dr.gather(kind or type(data), data, index, active)
-    if kind:
-        return kind(data[3 * index:3 * index + 3] if active else 0)
-    return data[index] if active else 0
-
-
-def ratio(x, y):
-    """0 where y is."""
-    return dr.select(y > 0, x / dr.select(y > 0, y, 1), 0)
-
-
-def choose(first, second, x):
-    """Whether x in [0, 1] chooses the second of two weights, and where in the chosen one it is."""
-    share = ratio(first, first + second)
-    last = x >= share
-    x = dr.select(last, ratio(x - share, 1 - share), ratio(x, share))
-    return last, dr.clip(x, 0, 1)
-
-
-def quarter(weights, blocks, share, x, point=None, split=None):
-    """Of a block's quarters, weights[right][upper], the one that the sample x chooses, or that has
-    the point, which the split tells: the new blocks, their share of all, what is left of x."""
-    columns = weights[0][0] + weights[0][1], weights[1][0] + weights[1][1]
-    right, x0 = choose(*columns, x[0]) if point is None else (point[0] >= split[0], None)
-    rows = [dr.select(right, weights[1][k], weights[0][k]) for k in (0, 1)]
-    upper, x1 = choose(*rows, x[1]) if point is None else (point[1] >= split[1], None)
-    share = share * ratio(dr.select(upper, rows[1], rows[0]), columns[0] + columns[1])
-    return [2 * block + dr.select(last, mi.UInt32(1), mi.UInt32(0))
-            for block, last in zip(blocks, (right, upper))], share, (x0, x1)
-
-
-def descend(steps, at, x, share):
-    """Quarters by the weights at(step, blocks): what is left of x, the blocks and their share."""
-    blocks = [mi.UInt32(0), mi.UInt32(0)]
-    for step in steps:
-        weights = [[at(step, (2 * blocks[0] + k, 2 * blocks[1] + m)) for m in (0, 1)]
-                   for k in (0, 1)]
-        blocks, share, x = quarter(weights, blocks, share, x)
-    return x, blocks, share
 
 
 class Slab(mi.Emitter):
@@ -271,54 +133,81 @@ class Slab(mi.Emitter):
     def warp(self, receiver, seen, active, sample=None, point=None):
         """The point that a sample of the unit square becomes, or the given one, and its density
         by area in lamp units. 0 where it is never chosen."""
-        blocks, share, x = [mi.UInt32(0), mi.UInt32(0)], mi.Float(1), sample
+        blocks, share, x, places = [mi.UInt32(0), mi.UInt32(0)], mi.Float(1), sample, []
         levels = MOST_UV.bit_length() - 1 if self.sampling == 'energy' else 0
         for level in range(1, levels + 1):
             weights = self.quarters(level, blocks, receiver, seen, active)
             split = [mi.Float(2 * block + 1) * (edge / (1 << level)) - edge / 2
                      for block, edge in zip(blocks, self.edges)]
             blocks, share, x = quarter(weights, blocks, share, x, point, split)
-        spans = [self.part(axis, levels, blocks[axis], seen[axis]) for axis in (0, 1)]
-        sizes = [high - low for low, high in spans]
-        if point is None:
-            point = [low + size * t for (low, _), size, t in zip(spans, sizes, x)]
-        else:
-            for value, (low, high), edge in zip(point, spans, self.edges):
-                active = active & (value >= low - 1e-6 * edge) & (value <= high + 1e-6 * edge)
-        return point, dr.select(active, ratio(share, sizes[0] * sizes[1]), 0)
+        for value, axis, values in zip(point or x, (0, 1), self.means(levels, blocks, receiver, active)):
+            ends = self.part(axis, levels, blocks[axis], seen[axis])
+            width = self.edges[axis] / (1 << levels)
+            middle = self.middle(axis, levels, blocks[axis])
+            place, density = bend(ends, middle, width, values, value, point is not None)
+            places.append(place)
+            share = share * density
+            slack = 1e-6 * self.edges[axis]
+            active = active & (place >= ends[0] - slack) & (place <= ends[1] + slack)
+        return places, dr.select(active, share, 0)
+
+    def middle(self, axis, level, block):
+        """Of one of the 2^level blocks of an axis."""
+        return (mi.Float(block) + .5) * (self.edges[axis] / (1 << level)) - self.edges[axis] / 2
 
     def part(self, axis, level, block, seen):
-        """What is seen of one of the 2^level blocks of an axis: low and high end."""
-        edge = self.edges[axis]
-        width = edge / (1 << level)
-        low = mi.Float(block) * width - edge / 2
-        return dr.maximum(low, seen[0]), dr.minimum(low + width, seen[1])
+        """What is seen of a block: low and high end."""
+        middle, half = self.middle(axis, level, block), self.edges[axis] / (2 << level)
+        return dr.maximum(middle - half, seen[0]), dr.minimum(middle + half, seen[1])
 
-    def quarters(self, level, blocks, receiver, seen, active):
-        """Weights [right][upper] of a block's quarters, which are blocks of `level`."""
-        z = receiver[2]
-        s0, s1, t0, t1 = self.window
+    def mip(self, level, z):
+        """That whose cells are as large as what is seen through a block; how many these are."""
         turn = dr.abs(self.kappa - 1 / z) / (1 << level)  # slopes seen through a block, by its edge
+        s0, s1, t0, t1 = self.window
         cells = [turn * edge / (high - low) * count for edge, low, high, count in
                  zip(self.edges, (s0, t0), (s1, t1), self.cells.st)]
         mip = dr.ceil(dr.log2(dr.maximum(dr.maximum(*cells), 1)))
         mip = mi.UInt32(dr.minimum(mip, self.cells.mips - 1))
-        size = self.cells.size(mip)
-        sides = []  # of each axis, of each half: block, what is seen of it, cell of slopes
-        for axis, (low, high) in enumerate(((s0, s1), (t0, t1))):
+        return mip, self.cells.size(mip)
+
+    def towards(self, axis, place, receiver, size):
+        """The cells of slopes through which the receiver sees a place."""
+        slope = (receiver[axis] - place) / receiver[2] + self.kappa * place
+        low, high = self.window[2 * axis:2 * axis + 2]
+        return taps((slope - low) / (high - low) * mi.Float(size[axis]), size[axis])
+
+    def quarters(self, level, blocks, receiver, seen, active):
+        """Weights [right][upper] of a block's quarters, which are blocks of `level`."""
+        mip, size = self.mip(level, receiver[2])
+        sides = []  # of each axis, of each half: block, what is seen of it, cells of slopes
+        for axis in (0, 1):
             halves = []
             for k in (0, 1):
                 block = 2 * blocks[axis] + k
                 ends = self.part(axis, level, block, seen[axis])
-                middle = (ends[0] + ends[1]) / 2
-                slope = (receiver[axis] - middle) / z + self.kappa * middle
-                count = mi.Float(size[axis])
-                at = dr.clip(dr.floor((slope - low) / (high - low) * count), 0, count - 1)
-                halves.append((block, dr.maximum(ends[1] - ends[0], 0), mi.UInt32(at)))
+                cells = self.towards(axis, (ends[0] + ends[1]) / 2, receiver, size)
+                halves.append((block, dr.maximum(ends[1] - ends[0], 0), cells))
             sides.append(halves)
-        return [[right[1] * upper[1] * self.cells.at(
+        return [[right[1] * upper[1] * self.cells.between(
             level, (right[0], upper[0]), mip, (right[2], upper[2]), active)
                  for upper in sides[1]] for right in sides[0]]
+
+    def means(self, level, blocks, receiver, active):
+        """For each axis those of the block before, of the block, and of the next one."""
+        if level == 0:
+            return ((mi.Float(1),) * 3,) * 2
+        mip, size = self.mip(level, receiver[2])
+
+        def mean(*at):
+            cells = [self.towards(axis, self.middle(axis, level, at[axis]), receiver, size)
+                     for axis in (0, 1)]
+            return self.cells.between(level, at, mip, cells, active)
+
+        before = [dr.maximum(block, 1) - 1 for block in blocks]
+        after = [dr.minimum(block + 1, (1 << level) - 1) for block in blocks]
+        own = mean(*blocks)
+        return ((mean(before[0], blocks[1]), own, mean(after[0], blocks[1])),
+                (mean(blocks[0], before[1]), own, mean(blocks[0], after[1])))
 
     def view(self, it, active):
         """The frame, the receiver in it, what it sees of the aperture, and whether it does."""

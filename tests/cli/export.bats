@@ -92,7 +92,7 @@ lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7
   needs python3
   run -0 export_it lamp.tif -o mitsuba --as mitsuba
   [[ $output == *"lamp.tif: note: "*multijitter* ]]
-  [ "$(ls mitsuba)" = $'README.md\nexample.xml\nlamp.exr\nlamp.json\nlamp.xml\nprovenance.json\nslab_emitter.py' ]
+  [ "$(ls mitsuba)" = $'README.md\nexample.xml\nlamp.exr\nlamp.json\nlamp.xml\nprovenance.json\nslab_cells.py\nslab_emitter.py' ]
   run -0 export_it lamp.tif -o blender --as cycles
   [[ $output == *"lamp.tif: note: "*"adaptive sampling"* ]]
   [ "$(ls blender)" = $'README.md\ncanned_lights.py\nexample.py\nlamp.exr\nlamp.json\nprovenance.json' ]
@@ -101,7 +101,7 @@ lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7
   [ "$(oiiotool --hash lamp.tif blender/lamp.exr | grep -oE '[0-9A-F]{40}' | sort -u | wc -l)" -eq 1 ]
   jq -e '.version == 1 and .name == "lamp" and (.pages | length == 1)
     and (.pages[0] | .image == "lamp.exr" and .samples == [2, 2, 3, 2] and .normal == [0, -1, 0])' blender/lamp.json
-  python3 -m py_compile mitsuba/slab_emitter.py blender/canned_lights.py blender/example.py
+  python3 -m py_compile mitsuba/slab_emitter.py mitsuba/slab_cells.py blender/canned_lights.py blender/example.py
   # Pages without light are left out; a lamp of none is refused.
   raw_slab dark.tif '[1, 1, 1, 1]' 1 1 ', "name": "lamp"' 00000000
   refuses 1 dark.tif 'no light' -- export_it dark.tif -o dark --as mitsuba
@@ -109,6 +109,27 @@ lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7
   refuses 2 --blend -- export_it lamp.tif -o out --as mitsuba --blend
   BLENDER=/none/blender refuses 1 --blend -- export_it lamp.tif -o out --as cycles --blend
   [ ! -e dark ] && [ ! -e out ]
+}
+
+@test "Mitsuba's own projectors: what they are, what they lose, and where they cannot" {
+  window='-2, 2, -2, 2' raw_slab soft.tif '[4, 4, 4, 4]' 16 16 ', "name": "soft"' 3f800000 3f000000 3e800000
+  run -0 export_it soft.tif -o out --as mitsuba --plain --tolerance 0.1
+  [[ $output == *"page 1: "*"positions: irradiance 1, 2 and 4 aperture widths away errs "*" %"* ]]
+  [[ $output == *"the lamp's face is missing"*"multijitter"*"gain by the scale"* ]]
+  views=$(grep -c 'type="projector"' out/soft.xml)
+  [ "$views" -ge 16 ]
+  [ "$(find out -name 'soft_1_??_??.exr' | wc -l)" -eq "$views" ]
+  [ "$(ls out --ignore='*.exr')" = $'README.md\nexample.xml\nprovenance.json\nsoft.xml' ]
+  grep -q "value=\"$views\"" out/example.xml
+  jq -e '(.error | length) == 3 and .error[2].aperture_widths == 4 and .error[2].irradiance_rms < 0.1' out/provenance.json
+  # A narrow window, one far aside, and one that is too wide.
+  # shellcheck disable=SC2034 # raw_slab reads it
+  for window in '0.1, 0.11, -0.01, 0.01' '-2, 8, -1, 1' '-90, 90, -90, 90'; do
+    raw_slab hard.tif '[1, 1, 1, 1]' 1 1 ', "name": "hard"' 3f800000
+    refuses 1 hard.tif 'page 1: ' projectors 'leave out --plain' -- export_it hard.tif -o hard --as mitsuba --plain
+  done
+  refuses 2 --plain mitsuba -- export_it soft.tif -o hard --as cycles --plain
+  [ ! -e hard ]
 }
 
 @test "ray files: so many rays, the flux exact, the same for the same seed, back within their noise" {

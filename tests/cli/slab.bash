@@ -4,12 +4,12 @@
 load ../testing
 
 # raw_slab FILE SAMPLES(JSON) WIDTH HEIGHT MORE_JSON HEXFLOATS...
-# The variable `version` may name another version of the format.
+# The variables `version` and `window` may name another version of the format, another st window.
 # The floats (8 hex digits each) repeat until the raster is full.
 raw_slab() {
   local file=$1 samples=$2 width=$3 height=$4 more=$5
   shift 5
-  local text="{\"format\": \"light-slab\", \"version\": ${version:-1}, \"samples\": $samples, \"center\": [0, 0, 0], \"u\": [0.2, 0, 0], \"v\": [0, 0, 0.2], \"normal\": [0, -1, 0], \"st_window\": [-1, 1, -1, 1]$more}"
+  local text="{\"format\": \"light-slab\", \"version\": ${version:-1}, \"samples\": $samples, \"center\": [0, 0, 0], \"u\": [0.2, 0, 0], \"v\": [0, 0, 0.2], \"normal\": [0, -1, 0], \"st_window\": [${window:--1, 1, -1, 1}]$more}"
   local values=$((3 * width * height)) entries=11 hex
   local directory=8 length=$((${#text} + 1))
   local after=$((directory + 2 + 12 * entries + 4))
