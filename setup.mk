@@ -2,7 +2,7 @@
 # that sets up by itself is made by a second make, which begins when set-up has ended. The first
 # one reads no other rule: nothing is generated, compiled or asked of pkg-config before.
 SETUP ?= yes
-SETS_UP := setup demo lamps figures tradeoff peers test bare stability bench lint sanitize fuzz fuzz_all man install
+SETS_UP := setup demo lamps figures tradeoff peers engines test bare stability bench lint sanitize fuzz fuzz_all man install
 
 # Where there is no Debian, pkg-config is asked for these.
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
@@ -15,6 +15,8 @@ PACKAGES_build := $(if $(findstring clang,$(CC)),clang,gcc g++) libc6-dev make p
 PACKAGES_demo := povray povray-includes openimageio-tools
 PACKAGES_plot := gnuplot-nox
 PACKAGES_peers := python3-venv libedit2 libz3-4
+# Libraries of Blender's module, too, which it does not bring along.
+PACKAGES_engines := $(PACKAGES_peers) libxi6 libxxf86vm1 libxfixes3 libxrender1 libxkbcommon0 libsm6 libgl1
 PACKAGES_lamps := povray povray-includes jq
 PACKAGES_man  := help2man scdoc
 PACKAGES_bare := git debootstrap
@@ -27,8 +29,9 @@ PACKAGES := $(sort $(if $(filter-out bare,$(MAKECMDGOALS)),$(PACKAGES_build)) \
   $(call goals_need,demo bench figures tradeoff peers,$(PACKAGES_demo)) \
   $(call goals_need,tradeoff peers,$(PACKAGES_plot)) \
   $(call goals_need,peers,$(PACKAGES_peers)) \
+  $(call goals_need,engines,$(PACKAGES_engines)) \
   $(call goals_need,lamps,$(PACKAGES_lamps)) \
-  $(call goals_need,setup test stability sanitize,$(PACKAGES_test)) \
+  $(call goals_need,setup test engines stability sanitize,$(PACKAGES_test)) \
   $(call goals_need,setup bare,$(PACKAGES_bare)) \
   $(call goals_need,fuzz fuzz_all sanitize,$(PACKAGES_fuzz)) \
   $(call goals_need,man install,$(PACKAGES_man)) \

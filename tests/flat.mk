@@ -22,9 +22,17 @@ TEST_LONG := $(filter bake/% chain/% house/%,$(TEST_NAMES))
 TEST_CHOSEN := $(filter $(T),$(TEST_LONG) $(filter-out $(TEST_LONG),$(TEST_NAMES)))
 TEST_LOGS := $(TEST_CHOSEN:%=$(B)/tests/%.log)
 
+# Where `make engines` or `make peers` has installed other renderers, tests/export asks them.
+ENGINES := $(abspath build/peers)
+engine_there = $(if $(wildcard $(ENGINES)/$(2)),$(1)=$(wildcard $(ENGINES)/$(2))$(3))
+ENGINE_RADIANCE = venv/lib/python3*/site-packages/pyradiance
+ENGINE_ENV = $(call engine_there,MITSUBA_PYTHON,venv/bin/python) $(call engine_there,BLENDER_PYTHON,bpy/bin/python) \
+  $(call engine_there,DRJIT_LIBLLVM_PATH,debian/usr/lib/x86_64-linux-gnu/libLLVM-19.so) \
+  $(call engine_there,PATH,$(ENGINE_RADIANCE)/bin,:$$PATH) $(call engine_there,RAYPATH,$(ENGINE_RADIANCE)/lib,:.)
+
 TEST_ENV = BAKESLAB=$(abspath $(BAKE_BIN)) RENDERSLAB=$(abspath $(RENDER_BIN)) CANNED_INCLUDE=$(abspath include-pov) BUILD=$(abspath $(B)) \
   CONFIG=$(config) FAULTS=$(FAULTS) KILLS=$(KILLS) TEST_JOBS=$(TEST_JOBS) TEST_TIMEOUT=$(TEST_TIMEOUT) \
-  CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=suppressions=$(abspath tests/thread.supp):allocator_may_return_null=1 ASAN_OPTIONS=allocator_may_return_null=1:verify_asan_link_order=0 LC_ALL=C.UTF-8
+  $(ENGINE_ENV) CMOCKA_MESSAGE_OUTPUT=TAP UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=suppressions=$(abspath tests/thread.supp):allocator_may_return_null=1 ASAN_OPTIONS=allocator_may_return_null=1:verify_asan_link_order=0 LC_ALL=C.UTF-8
 
 .PHONY: test bench lint
 
@@ -80,6 +88,8 @@ $(BENCH_SLAB_RAYS): $(B)/tests/bench/slab_rays.o $(ORACLE) $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
+BENCH_EXPORT := $(patsubst %,$(B)/tests/export/test_%,pages radiance light)
+
 TRADEOFF_LAMPS := $(B)/tests/tradeoff/lamps
 
 $(TRADEOFF_LAMPS): $(B)/tests/tradeoff/lamps.o $(B)/libslab.a
@@ -97,7 +107,15 @@ peers: $(BIN) ## measure beside Mitsuba, Radiance and POV-Ray what a picture of 
 	@mkdir -p build/peers
 	@$(TEST_ENV) BUILD=$(abspath build/peers) tests/peers/run.sh
 
-bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
+# In the same scratch environment.
+.PHONY: engines
+engines: $(BIN) ## install Radiance, Mitsuba and Blender's bpy for tests, and run those of exports with them
+	@mkdir -p $(ENGINES)
+	@ENGINES=$(ENGINES) bash -c '. tests/peers/engines.bash; for engine in "mitsuba rgb" radiance blender; do \
+	  engine_$$engine || echo "$${engine% *} cannot be installed: $(ENGINES)/*.log tell why" >&2; done'
+	@$(MAKE) --no-print-directory SETUP=no test T='export/%'
+
+bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(BENCH_EXPORT) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "file/slab_file.h"
 #include "oracle/random.h"
@@ -100,7 +101,34 @@ void lamp_ray(const struct lamp *lamp, const struct slab *pages, uint64_t *seed,
   }
 }
 
-void lamp_run(const char *command, const double *rows, int columns, int count, double (*rgb)[3]) {
+void lamp_receivers(const struct slab *page, double distance, int side, double (*receivers)[6]) {
+  double kappa = slab_kappa(page);
+  for (int k = 0; k < side * side; ++k) {
+    double at[2], cell[2] = {(k % side + 0.5) / side, (k / side + 0.5) / side};
+    for (int axis = 0; axis < 2; ++axis) {
+      const double *window = page->st_window + 2 * axis;
+      double edge = slab_spacing(page, axis) * page->samples[axis];
+      double half = (1 + distance * kappa) * edge / 2;
+      double reach = distance * (window[1] - window[0]) + 2 * half;
+      at[axis] = (distance * window[0] - half + cell[axis] * reach) / edge;
+    }
+    for (int c = 0; c < 3; ++c) {
+      receivers[k][c] =
+          page->center[c] + distance * page->normal[c] + at[0] * page->u[c] + at[1] * page->v[c];
+      receivers[k][3 + c] = -page->normal[c];
+    }
+  }
+}
+
+/* Of all children that have ended. */
+static double cpu_seconds(void) {
+  struct rusage used;
+  getrusage(RUSAGE_CHILDREN, &used);
+  return (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+         1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
+
+double lamp_run(const char *command, const double *rows, int columns, int count, double (*rgb)[3]) {
   const char *in = scratch("rows"), *out = scratch("rgb");
   char whole[2048];
   FILE *file = fopen(in, "w");
@@ -109,13 +137,16 @@ void lamp_run(const char *command, const double *rows, int columns, int count, d
     fprintf(file, "%.17g%c", rows[k], (k + 1) % columns ? ' ' : '\n');
   assert_int_equal(fclose(file), 0);
   snprintf(whole, sizeof whole, "%s <'%s' >'%s'", command, in, out);
+  double seconds = cpu_seconds();
   if (system(whole) != 0) fail_msg("failed: %s", whole);
+  seconds = cpu_seconds() - seconds;
   file = fopen(out, "r");
   assert_non_null(file);
   for (int k = 0; k < count; ++k)
     if (fscanf(file, "%lf %lf %lf", &rgb[k][0], &rgb[k][1], &rgb[k][2]) != 3)
       fail_msg("%s: row %d is not there", whole, k + 1);
   fclose(file);
+  return seconds;
 }
 
 void lamp_lookup(const char *path, double (*rays)[6], int count, double (*rgb)[3]) {
@@ -138,4 +169,27 @@ double lamp_worst(double (*a)[3], double (*b)[3], int count) {
   for (int k = 0; k < count; ++k)
     for (int c = 0; c < 3; ++c) worst = larger(worst, fabs(a[k][c] - b[k][c]));
   return worst;
+}
+
+double lamp_rms(double (*got)[3], double (*wanted)[3], int count) {
+  double off = 0, all = 0;
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < 3; ++c) {
+      off += (got[k][c] - wanted[k][c]) * (got[k][c] - wanted[k][c]);
+      all += wanted[k][c] * wanted[k][c];
+    }
+  assert_true(all > 0);
+  return sqrt(off / all);
+}
+
+void lamp_z_up(const double lamp[3], double there[3]) {
+  there[0] = lamp[0];
+  there[1] = lamp[2];
+  there[2] = lamp[1];
+}
+
+void lamp_y_up(const double lamp[3], double there[3]) {
+  there[0] = lamp[0];
+  there[1] = lamp[1];
+  there[2] = -lamp[2];
 }

@@ -31,6 +31,10 @@ void lamp_free(struct slab pages[LAMP_PAGES]);
  * aperture of one of the pages, or just beside it, within the window or just outside. */
 void lamp_ray(const struct lamp *lamp, const struct slab *pages, uint64_t *seed, double ray[6]);
 
+/* side x side receivers that face a page, at a distance, over all that its light reaches there: 6
+ * numbers, point and normal. */
+void lamp_receivers(const struct slab *page, double distance, int side, double (*receivers)[6]);
+
 /* What `bakeslab lookup` says of rays. */
 void lamp_lookup(const char *path, double (*rays)[6], int count, double (*rgb)[3]);
 
@@ -38,10 +42,15 @@ void lamp_lookup(const char *path, double (*rays)[6], int count, double (*rgb)[3
 const char *lamp_export(const char *path, const char *folder, const char *arguments);
 
 /* Runs a shell command that reads the rows, `columns` numbers each, and prints a row of three
- * numbers for each. Fails the test where it does not. */
-void lamp_run(const char *command, const double *rows, int columns, int count, double (*rgb)[3]);
+ * numbers for each. Fails the test where it does not. The CPU seconds that it took. */
+double lamp_run(const char *command, const double *rows, int columns, int count, double (*rgb)[3]);
 
-/* The largest difference. */
+/* The largest difference; the root of the sum of its squares over that of `wanted`. */
 double lamp_worst(double (*a)[3], double (*b)[3], int count);
+double lamp_rms(double (*got)[3], double (*wanted)[3], int count);
+
+/* A lamp point or vector, of y up, in the space of Radiance and Blender, and in that of Mitsuba. */
+void lamp_z_up(const double lamp[3], double there[3]);
+void lamp_y_up(const double lamp[3], double there[3]);
 
 #endif

@@ -1,6 +1,7 @@
-# mitsuba_rays.py rays|irradiance FOLDER NAME [PLACE] - what Mitsuba 3 says of an exported lamp, for
-# rows on stdin, in its own space. rays: origin, direction: radiance. irradiance: point, normal,
-# with 1024 samples of multijitter. PLACE: the parameter of NAME.xml. Exit status 77: no Mitsuba.
+# mitsuba_rays.py FOLDER NAME rays|sum|irradiance [KEY=VALUE...] - what Mitsuba 3 says of an exported
+# lamp, for rows on stdin, in its own space. rays: origin, direction: radiance. sum, irradiance:
+# point, normal: one sample of each emitter, or samples=N of multijitter (1024). Other keys are
+# parameters of NAME.xml. Exit status 77: no Mitsuba.
 import os
 import sys
 
@@ -14,13 +15,16 @@ except Exception as reason:
     print(f'no Mitsuba: {reason}', file=sys.stderr)
     sys.exit(77)
 
-task, folder, name, *place = sys.argv[1:]
+folder, name, task, *more = sys.argv[1:]
+parameters = dict(word.split('=') for word in more)
+samples = int(parameters.pop('samples', 1024)) if task == 'irradiance' else 1
 sys.dont_write_bytecode = True
 sys.path.insert(0, folder)
-import slab_emitter
+if os.path.exists(os.path.join(folder, 'slab_emitter.py')):
+    import slab_emitter
 
 os.chdir(folder)
-scene = mi.load_file(f'{name}.xml', **({'place': place[0]} if place else {}))
+scene = mi.load_file(f'{name}.xml', **parameters)
 rows = np.loadtxt(sys.stdin, ndmin=2)
 if task == 'rays':
     ray = mi.Ray3f(mi.Point3f(rows[:, :3].T), dr.normalize(mi.Vector3f(rows[:, 3:].T)))
@@ -28,15 +32,20 @@ if task == 'rays':
     rgb = hit.emitter(scene).eval(hit, hit.is_valid())
     out = np.array(rgb).T
 else:
-    samples = 1024
-    rows = np.repeat(rows, samples, 0)
     sampler = mi.load_dict({'type': 'multijitter', 'sample_count': samples})
+    samples = sampler.sample_count()  # it rounds
+    rows = np.repeat(rows, samples, 0)
     sampler.set_samples_per_wavefront(samples)
     sampler.seed(0, len(rows))
     at = dr.zeros(mi.SurfaceInteraction3f, len(rows))
     at.p, at.n = mi.Point3f(rows[:, :3].T), mi.Normal3f(rows[:, 3:].T)
     at.t, at.sh_frame = mi.Float(1), mi.Frame3f(at.n)
-    direction, weight = scene.sample_emitter_direction(at, sampler.next_2d(), False)
-    rgb = weight * dr.maximum(dr.dot(direction.d, at.n), 0)
-    out = np.array(rgb, np.float64).T.reshape(-1, samples, 3).mean(1)
+    if task == 'sum':
+        found = [emitter.sample_direction(at, sampler.next_2d()) for emitter in scene.emitters()]
+    else:
+        found = [scene.sample_emitter_direction(at, sampler.next_2d(), False)]
+    out = 0
+    for direction, weight in found:
+        rgb = weight * dr.maximum(dr.dot(direction.d, at.n), 0)
+        out = out + np.array(rgb, np.float64).T.reshape(-1, samples, 3).mean(1)
 np.savetxt(sys.stdout, out, '%.9g')

@@ -7,15 +7,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 
+#include "engine.h"
 #include "file/slab_exr.h"
 #include "lamps.h"
+#include "letter.h"
 #include "oracle/lookup.h"
 #include "oracle/random.h"
 #include "testing.h"
 
-enum { RAYS = 4000, SIDE = 32, RECEIVERS = SIDE * SIDE, NO_ENGINE = 77, NO_PYTHON = 127 };
+enum { RAYS = 4000 };
 
 /* A page as the files tell it; its frame: u, v, normal, center, in whatever space. */
 struct page {
@@ -112,13 +113,6 @@ static void see(const struct page *pages, int count, const double ray[6], double
   }
 }
 
-/* y up. */
-static void to_mitsuba(const double lamp[3], double mitsuba[3]) {
-  mitsuba[0] = lamp[0];
-  mitsuba[1] = lamp[1];
-  mitsuba[2] = -lamp[2];
-}
-
 /* The lamp's rays and what they are to see; the folder with the export. */
 static const char *prepare(const struct lamp *lamp, const char *kind) {
   struct slab pages[LAMP_PAGES];
@@ -133,8 +127,9 @@ static const char *prepare(const struct lamp *lamp, const char *kind) {
   return lamp_export(path, "out", kind);
 }
 
-static void check(const struct lamp *lamp, double allowed) {
+static void check(const struct lamp *lamp, const char *by, double allowed) {
   double worst = lamp_worst(wanted, got, RAYS);
+  print_message("# %s: rays by %s: %.1e\n", lamp->name, by, worst);
   if (!(worst < allowed)) fail_msg("%s: %g off", lamp->name, worst);
 }
 
@@ -144,15 +139,15 @@ TEST(rays_by_the_text) {
     const char *folder = prepare(&lamps[n], "--as mitsuba");
     int count = read_pages(folder, lamps[n].name, pages);
     for (int k = 0; k < RAYS; ++k) see(pages, count, rays[k], got[k]);
-    check(&lamps[n], 1e-6);
+    check(&lamps[n], "the text", 1e-6);
     read_xml(folder, lamps[n].name, pages, count);
     for (int k = 0; k < RAYS; ++k) {
       double ray[6];
-      to_mitsuba(rays[k], ray);
-      to_mitsuba(rays[k] + 3, ray + 3);
+      lamp_y_up(rays[k], ray);
+      lamp_y_up(rays[k] + 3, ray + 3);
       see(pages, count, ray, got[k]);
     }
-    check(&lamps[n], 1e-6);
+    check(&lamps[n], "the text", 1e-6);
     for (int k = 0; k < count; ++k) slab_free(&pages[k].slab);
   }
 }
@@ -174,7 +169,7 @@ TEST(channels_are_added_up) {
   lamp_lookup(path, rays, RAYS, wanted);
   assert_int_equal(read_pages(lamp_export(path, "out", "--as mitsuba"), lamp->name, pages), 1);
   for (int k = 0; k < RAYS; ++k) see(pages, 1, rays[k], got[k]);
-  check(lamp, 1e-6);
+  check(lamp, "the text", 1e-6);
   slabs[1].st_window[0] -= 0.1;
   lamp_save(lamp, slabs);
   snprintf(command, sizeof command,
@@ -185,108 +180,69 @@ TEST(channels_are_added_up) {
   lamp_free(slabs);
 }
 
-/* Whether a script's exit status is that of a python3 without the engine. */
-static bool lacks(const char *python, const char *script) {
-  char command[512];
-  snprintf(command, sizeof command, "%s tests/export/%s </dev/null >'%s' 2>&1", python, script,
-           scratch("said"));
-  int status = WEXITSTATUS(system(command));
-  if (status != NO_ENGINE && status != NO_PYTHON) return false;
-  print_message("# skipped: no engine for %s\n", script);
-  return true;
-}
-
-static const char *python_of(const char *variable) {
-  const char *given = getenv(variable);
-  return given && *given ? given : "python3";
-}
-
-static void ask_mitsuba(const char *task, const char *folder, const struct lamp *lamp,
-                        const char *place, double (*rows)[6], int count, double (*rgb)[3]) {
-  char command[1024];
-  snprintf(command, sizeof command, "%s tests/export/mitsuba_rays.py %s '%s' %s %s",
-           python_of("MITSUBA_PYTHON"), task, folder, lamp->name, place);
-  lamp_run(command, rows[0], 6, count, rgb);
-}
-
 /* Turned, mirrored and scaled by 2.5. */
 static const double place[3][4] = {{-1.5, 2, 0, 1}, {2, 1.5, 0, -2}, {0, 0, 2.5, 0.5}};
-static const char place_text[] = "'-1.5 2 0 1 2 1.5 0 -2 0 0 2.5 .5 0 0 0 1'";
+static const char place_text[] = "rays 'place=-1.5 2 0 1 2 1.5 0 -2 0 0 2.5 .5 0 0 0 1'";
 
 TEST(rays_by_mitsuba) {
-  if (lacks(python_of("MITSUBA_PYTHON"), "mitsuba_rays.py")) skip();
+  if (!engine_there(MITSUBA)) skip();
   for (int n = 0; n < 2 * lamp_count; ++n) {
     const struct lamp *lamp = &lamps[n / 2];
     const char *folder = prepare(lamp, "--as mitsuba");
     for (int k = 0; k < RAYS; ++k) {
       double at[3], out[3];
-      to_mitsuba(rays[k], at);
-      to_mitsuba(rays[k] + 3, out);
+      lamp_y_up(rays[k], at);
+      lamp_y_up(rays[k] + 3, out);
       for (int c = 0; c < 3; ++c) {
         there[k][c] = n % 2 ? dot(place[c], at) + place[c][3] : at[c];
         there[k][3 + c] = n % 2 ? -dot(place[c], out) : -out[c];
       }
     }
-    ask_mitsuba("rays", folder, lamp, n % 2 ? place_text : "", there, RAYS, got);
-    check(lamp, 1e-4);
+    engine_mitsuba(folder, lamp->name, n % 2 ? place_text : "rays", there, RAYS, got);
+    check(lamp, n % 2 ? "Mitsuba, placed" : "Mitsuba", 1e-4);
   }
 }
 
-/* Receivers that face the first page, one unit before it, over all that its light reaches. */
-static void make_receivers(const struct slab *slab) {
-  for (int k = 0; k < RECEIVERS; ++k) {
-    double at[2], cell[2] = {(k % SIDE + 0.5) / SIDE, (k / SIDE + 0.5) / SIDE};
-    for (int axis = 0; axis < 2; ++axis) {
-      const double *window = slab->st_window + 2 * axis;
-      double edge = sqrt(axis ? dot(slab->v, slab->v) : dot(slab->u, slab->u));
-      double half = (1 + 1 / slab->st_distance) * edge / 2;
-      at[axis] = (window[0] - half + cell[axis] * (window[1] - window[0] + 2 * half)) / edge;
-    }
-    for (int c = 0; c < 3; ++c) {
-      rays[k][c] = slab->center[c] + slab->normal[c] + at[0] * slab->u[c] + at[1] * slab->v[c];
-      rays[k][3 + c] = -slab->normal[c];
-    }
-    to_mitsuba(rays[k], there[k]);
-    to_mitsuba(rays[k] + 3, there[k] + 3);
-  }
+/* In Mitsuba a lamp that shines along lamp space's z shines along -z; y is up. */
+static const double forward[3] = {0, 0, -1}, up[3] = {0, 1, 0};
+
+static void check_letter(void) {
+  for (int k = 0; k < LETTER_PIXELS; ++k)
+    for (int c = 0; c < 3; ++c) assert_near(got[k][c], letter_light(k), 1e-4);
 }
 
-/* With the samples that its README asks for. */
-TEST(irradiance_by_mitsuba) {
-  if (lacks(python_of("MITSUBA_PYTHON"), "mitsuba_rays.py")) skip();
-  for (int n = 0; n < lamp_count; ++n) {
-    struct slab pages[LAMP_PAGES];
-    char command[512];
-    const char *path = lamp_write(&lamps[n], pages);
-    make_receivers(&pages[0]);
-    lamp_free(pages);
-    snprintf(command, sizeof command, "'%s' irradiance --light '%s' --method reference",
-             getenv("RENDERSLAB"), path);
-    lamp_run(command, rays[0], 6, RECEIVERS, wanted);
-    ask_mitsuba("irradiance", lamp_export(path, "out", "--as mitsuba"), &lamps[n], "", there,
-                RECEIVERS, got);
-    double off = 0, all = 0;
-    for (int k = 0; k < RECEIVERS; ++k)
-      for (int c = 0; c < 3; ++c) {
-        off += (got[k][c] - wanted[k][c]) * (got[k][c] - wanted[k][c]);
-        all += wanted[k][c] * wanted[k][c];
-      }
-    print_message("# %s: irradiance %.2f %% off\n", lamps[n].name, 100 * sqrt(off / all));
-    if (!(all > 0 && sqrt(off / all) < 0.01))
-      fail_msg("%s: irradiance %g off", lamps[n].name, sqrt(off / all));
+TEST(letter_reads_right) {
+  struct page pages[LAMP_PAGES];
+  const char *folder = lamp_export(letter_write(), "letter", "--as mitsuba");
+  int count = read_pages(folder, "letter", pages);
+  read_xml(folder, "letter", pages, count);
+  for (int k = 0; k < LETTER_PIXELS; ++k) {
+    double ray[6];
+    letter_ray(k, forward, up, ray);
+    for (int c = 0; c < 3; ++c) ray[3 + c] = -ray[3 + c];
+    see(pages, count, ray, got[k]);
   }
+  check_letter();
+  for (int k = 0; k < count; ++k) slab_free(&pages[k].slab);
+}
+
+TEST(letter_by_mitsuba) {
+  if (!engine_there(MITSUBA)) skip();
+  for (int k = 0; k < LETTER_PIXELS; ++k) letter_ray(k, forward, up, there[k]);
+  engine_mitsuba(lamp_export(letter_write(), "letter", "--as mitsuba"), "letter", "rays", there,
+                 LETTER_PIXELS, got);
+  check_letter();
 }
 
 /* Cycles chooses the rays; what they see is asked of the slab. */
 static void ask_cycles(const struct lamp *lamp, const char *placed) {
   struct slab pages[LAMP_PAGES];
   const char *path = lamp_write(lamp, pages), *chosen = scratch("rays");
-  char command[1024];
+  char more[1024];
   lamp_free(pages);
-  snprintf(command, sizeof command, "%s tests/export/blender_rays.py '%s' %s %d '%s' %s",
-           python_of("BLENDER_PYTHON"), lamp_export(path, "out", "--as cycles"), lamp->name, RAYS,
-           chosen, placed);
-  lamp_run(command, rays[0], 6, RAYS, got);
+  snprintf(more, sizeof more, "%d '%s' %s", RAYS, chosen, placed);
+  engine_blender("blender_rays.py", lamp_export(path, "out", "--as cycles"), lamp->name, more, rays,
+                 RAYS, got);
   FILE *file = fopen(chosen, "r");
   assert_non_null(file);
   for (int k = 0; k < 6 * RAYS; ++k) assert_int_equal(fscanf(file, "%lf", &rays[k / 6][k % 6]), 1);
@@ -295,12 +251,12 @@ static void ask_cycles(const struct lamp *lamp, const char *placed) {
   int lit = 0;
   for (int k = 0; k < RAYS; ++k) lit += wanted[k][0] > 0;
   assert_true(lit > RAYS / 20);
-  check(lamp, 1e-4);
+  check(lamp, *placed ? "Cycles, placed" : "Cycles", 1e-4);
 }
 
 TEST(rays_by_cycles) {
-  if (lacks(python_of("BLENDER_PYTHON"), "blender_rays.py")) skip();
-  for (int n = 0; n < lamp_count; ++n) ask_cycles(&lamps[n], n % 2 ? "placed" : "");
+  if (!engine_there(BLENDER)) skip();
+  for (int n = 0; n < 2 * lamp_count; ++n) ask_cycles(&lamps[n / 2], n % 2 ? "placed" : "");
 }
 
 int main(void) {
