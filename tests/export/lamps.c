@@ -81,6 +81,38 @@ void lamp_free(struct slab pages[LAMP_PAGES]) {
   for (int page = 0; page < LAMP_PAGES; ++page) slab_free(&pages[page]);
 }
 
+bool lamp_letter_is_lit(int field) {
+  static const char letter[LETTER_FIELDS + 1] = "####."
+                                                "#...."
+                                                "###.."
+                                                "#...."
+                                                "#....";
+  return letter[field] == '#';
+}
+
+/* Lamp space is left-handed: who looks along z, with y up, has x on the right. */
+void lamp_letter_place(int field, double lamp[3]) {
+  lamp[0] = (field % LETTER_SIDE - 2) * 0.4;
+  lamp[1] = (2 - field / LETTER_SIDE) * 0.4;
+  lamp[2] = 3;
+}
+
+const char *lamp_letter(void) {
+  char command[1024];
+  const char *image = scratch("letter.ppm"), *slab = scratch("letter.exr");
+  FILE *file = fopen(image, "w");
+  assert_non_null(file);
+  fprintf(file, "P3\n5 5\n255\n");
+  for (int k = 0; k < LETTER_FIELDS; ++k)
+    fputs(lamp_letter_is_lit(k) ? "255 255 255\n" : "0 0 0\n", file);
+  assert_int_equal(fclose(file), 0);
+  snprintf(command, sizeof command,
+           "'%s' projector '%s' -o '%s' --uv 2 --aperture 0.1 --focus 3 --width 2",
+           getenv("BAKESLAB"), image, slab);
+  assert_int_equal(system(command), 0);
+  return slab;
+}
+
 void lamp_ray(const struct lamp *lamp, const struct slab *pages, uint64_t *seed, double ray[6]) {
   const struct slab *slab = &pages[random_choose(seed, lamp->pages)];
   const double *window = slab->st_window;

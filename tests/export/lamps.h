@@ -2,6 +2,7 @@
 #ifndef LAMPS_H
 #define LAMPS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "slab/slab.h"
@@ -26,6 +27,13 @@ void lamp_make(const struct lamp *lamp, struct slab pages[LAMP_PAGES]);
 const char *lamp_save(const struct lamp *lamp, const struct slab pages[LAMP_PAGES]);
 const char *lamp_write(const struct lamp *lamp, struct slab pages[LAMP_PAGES]);
 void lamp_free(struct slab pages[LAMP_PAGES]);
+
+/* A projector of a letter F, which no turn brings onto its mirror image; the file's path. It shines
+ * along z, onto a screen of 5 x 5 fields 3 before it, upright as it is seen from the projector. */
+enum { LETTER_SIDE = 5, LETTER_FIELDS = LETTER_SIDE * LETTER_SIDE };
+const char *lamp_letter(void);
+bool lamp_letter_is_lit(int field);
+void lamp_letter_place(int field, double lamp[3]);
 
 /* A ray out of the lamp in lamp space: 6 numbers, origin and direction. It leaves through the
  * aperture of one of the pages, or just beside it, within the window or just outside. */

@@ -11,7 +11,6 @@
 #include "engine.h"
 #include "file/slab_exr.h"
 #include "lamps.h"
-#include "letter.h"
 #include "oracle/lookup.h"
 #include "oracle/random.h"
 #include "testing.h"
@@ -203,24 +202,29 @@ TEST(rays_by_mitsuba) {
   }
 }
 
-/* In Mitsuba a lamp that shines along lamp space's z shines along -z; y is up. */
-static const double forward[3] = {0, 0, -1}, up[3] = {0, 1, 0};
+/* Rays from the screen, which is upright in Mitsuba, too, to the projector. */
+static void prepare_letter(void) {
+  for (int k = 0; k < LETTER_FIELDS; ++k) {
+    lamp_letter_place(k, rays[k]);
+    lamp_y_up(rays[k], there[k]);
+    for (int c = 0; c < 3; ++c) there[k][3 + c] = -there[k][c];
+  }
+}
 
 static void check_letter(void) {
-  for (int k = 0; k < LETTER_PIXELS; ++k)
-    for (int c = 0; c < 3; ++c) assert_near(got[k][c], letter_light(k), 1e-4);
+  for (int k = 0; k < LETTER_FIELDS; ++k)
+    for (int c = 0; c < 3; ++c) assert_near(got[k][c], lamp_letter_is_lit(k), 1e-4);
 }
 
 TEST(letter_reads_right) {
   struct page pages[LAMP_PAGES];
-  const char *folder = lamp_export(letter_write(), "letter", "--as mitsuba");
+  const char *folder = lamp_export(lamp_letter(), "letter", "--as mitsuba");
   int count = read_pages(folder, "letter", pages);
   read_xml(folder, "letter", pages, count);
-  for (int k = 0; k < LETTER_PIXELS; ++k) {
-    double ray[6];
-    letter_ray(k, forward, up, ray);
-    for (int c = 0; c < 3; ++c) ray[3 + c] = -ray[3 + c];
-    see(pages, count, ray, got[k]);
+  prepare_letter();
+  for (int k = 0; k < LETTER_FIELDS; ++k) {
+    for (int c = 0; c < 3; ++c) there[k][3 + c] = there[k][c]; /* out of the lamp */
+    see(pages, count, there[k], got[k]);
   }
   check_letter();
   for (int k = 0; k < count; ++k) slab_free(&pages[k].slab);
@@ -228,9 +232,9 @@ TEST(letter_reads_right) {
 
 TEST(letter_by_mitsuba) {
   if (!engine_there(MITSUBA)) skip();
-  for (int k = 0; k < LETTER_PIXELS; ++k) letter_ray(k, forward, up, there[k]);
-  engine_mitsuba(lamp_export(letter_write(), "letter", "--as mitsuba"), "letter", "rays", there,
-                 LETTER_PIXELS, got);
+  prepare_letter();
+  engine_mitsuba(lamp_export(lamp_letter(), "letter", "--as mitsuba"), "letter", "rays", there,
+                 LETTER_FIELDS, got);
   check_letter();
 }
 
