@@ -193,7 +193,8 @@ enum result projectors_write(const struct projectors *projectors, const char *st
   const struct slab *texels = &projectors->texels;
   const int *samples = texels->samples;
   float *rgb = calloc((size_t)samples[SLAB_S] * (size_t)samples[SLAB_T], 3 * sizeof *rgb);
-  enum result result = rgb ? RESULT_OK : result_no_memory(error);
+  enum result result = RESULT_OK;
+  if (!rgb) return result_no_memory(error);
   for (int k = 0; k < samples[SLAB_U] * samples[SLAB_V] && result == RESULT_OK; ++k) {
     int i = k % samples[SLAB_U], j = k / samples[SLAB_U];
     char name[FILE_NAME_SIZE];

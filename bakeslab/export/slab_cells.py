@@ -152,7 +152,8 @@ def bend(ends, middle, width, values, x, given):
     areas = [(f[k] + f[k + 1]) * (places[k + 1] - places[k]) / 2 for k in (0, 1)]
     if not given:
         last, x = choose(*areas, x)
-        low, p, q = (dr.select(last, x1, x0) for x0, x1 in zip((places[0], *f), (places[1], *f[1:])))
+        low, p, q = (dr.select(last, second, first) for first, second in
+                     zip((places[0], *f[:2]), (places[1], *f[1:])))
         size = dr.select(last, places[2] - places[1], places[1] - places[0])
         x = low + size * ratio(x * (p + q), p + dr.sqrt(p * p + x * (q * q - p * p)))
     return x, ratio(value(x), areas[0] + areas[1])

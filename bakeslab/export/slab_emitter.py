@@ -132,7 +132,7 @@ class Slab(mi.Emitter):
 
     def warp(self, receiver, seen, active, sample=None, point=None):
         """The point that a sample of the unit square becomes, or the given one, and its density
-        by area in lamp units. 0 where it is never chosen."""
+        by area in lamp units: 0 where it is never chosen."""
         blocks, share, x, places = [mi.UInt32(0), mi.UInt32(0)], mi.Float(1), sample, []
         levels = MOST_UV.bit_length() - 1 if self.sampling == 'energy' else 0
         for level in range(1, levels + 1):
@@ -140,7 +140,8 @@ class Slab(mi.Emitter):
             split = [mi.Float(2 * block + 1) * (edge / (1 << level)) - edge / 2
                      for block, edge in zip(blocks, self.edges)]
             blocks, share, x = quarter(weights, blocks, share, x, point, split)
-        for value, axis, values in zip(point or x, (0, 1), self.means(levels, blocks, receiver, active)):
+        means = self.means(levels, blocks, receiver, active)
+        for value, axis, values in zip(point or x, (0, 1), means):
             ends = self.part(axis, levels, blocks[axis], seen[axis])
             width = self.edges[axis] / (1 << levels)
             middle = self.middle(axis, levels, blocks[axis])
@@ -227,7 +228,7 @@ class Slab(mi.Emitter):
         frame, receiver, seen, active = self.view(it, active)
         (a, b), density = self.warp(receiver, seen, active, sample=(sample.x, sample.y))
         middle, u, v, n, unit = frame
-        ds = dr.zeros(mi.DirectionSample3f)
+        ds = mi.DirectionSample3f()
         ds.p = middle + u * (a / unit) + v * (b / unit)
         ds.n = mi.Normal3f(n)
         ds.uv = mi.Point2f(a / self.edges[0] + .5, b / self.edges[1] + .5)

@@ -128,6 +128,7 @@ lumens() { "$BAKESLAB" info --json "$1" | jq '.pages[0].flux | 0.2126*.[0] + 0.7
     raw_slab hard.tif '[1, 1, 1, 1]' 1 1 ', "name": "hard"' 3f800000
     refuses 1 hard.tif 'page 1: ' projectors 'leave out --plain' -- export_it hard.tif -o hard --as mitsuba --plain
   done
+  refuses 1 soft.tif '"2 lamps"' --name -- export_it soft.tif -o hard --as mitsuba --plain --name '2 lamps'
   refuses 2 --plain mitsuba -- export_it soft.tif -o hard --as cycles --plain
   [ ! -e hard ]
 }
