@@ -3,15 +3,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/files.h"
-#include "base/process.h"
 
 static const char PROGRAM[] = "lib/canned/bakeslab-image";
 static const char LETTERS[] = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
@@ -36,29 +35,65 @@ static enum result take(FILE *from, struct picture *picture, struct slab_image_s
   return fread(picture->rgb, pixel, count, from) == count ? RESULT_OK : RESULT_IO;
 }
 
-/* Runs the program on an open file. */
-static enum result run(const char *program, const char *suffix, enum slab_image_colours colours,
-                       int in, struct picture *picture, struct slab_image_says *says,
-                       struct error *error) {
-  char kind[16];
-  const char *const words[] = {program, kind, colours == SLAB_IMAGE_OWN ? "own" : "srgb", NULL};
-  int ends[2];
-  snprintf(kind, sizeof kind, "%.*s", (int)strspn(suffix, LETTERS), suffix);
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    return result_fail(error, RESULT_IO, "pipe: %s", strerror(errno));
-  struct process process = {.words = words, .in = in, .out = ends[1], .errors = PROCESS_SAID};
-  FILE *from = fdopen(ends[0], "r");
-  enum result result = from ? process_start(&process, error) : result_no_memory(error);
-  close(ends[1]);
-  bool started = result == RESULT_OK;
-  if (started) result = take(from, picture, says, error);
-  if (from)
-    fclose(from);
-  else
-    close(ends[0]);
-  if (started && process_wait(&process, result == RESULT_MEMORY ? NULL : error) != RESULT_OK &&
-      result != RESULT_MEMORY)
-    result = RESULT_BAD;
+static enum result start(struct slab_images *images, struct error *error) {
+  int requests[2], answers[2];
+  char *program = files_beside_program(PROGRAM);
+  if (!program)
+    return result_fail(error, RESULT_IO,
+                       "%s, which reads images, is not where this program was installed; run "
+                       "`make` or `make install` again",
+                       PROGRAM);
+  *images = (struct slab_images){.program = program, .words = {program}, .requests = -1};
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, requests) != 0)
+    return result_fail(error, RESULT_IO, "socketpair: %s", strerror(errno));
+  images->requests = requests[0];
+  enum result result = RESULT_OK;
+  if (pipe2(answers, O_CLOEXEC) != 0) {
+    result = result_fail(error, RESULT_IO, "pipe: %s", strerror(errno));
+  } else {
+    images->process = (struct process){
+        .words = images->words, .in = requests[1], .out = answers[1], .errors = PROCESS_SAID};
+    images->answers = fdopen(answers[0], "r");
+    result = images->answers ? process_start(&images->process, error) : result_no_memory(error);
+    if (!images->answers) close(answers[0]);
+    close(answers[1]);
+  }
+  close(requests[1]);
+  return result;
+}
+
+/* Hands the program an open file, and a line of what to take it for. */
+static enum result ask(const struct slab_images *images, const char *suffix,
+                       enum slab_image_colours colours, int in, struct error *error) {
+  char line[32];
+  union {
+    char bytes[CMSG_SPACE(sizeof in)];
+    struct cmsghdr header;
+  } control = {{0}};
+  snprintf(line, sizeof line, "%s %.*s", colours == SLAB_IMAGE_OWN ? "own" : "srgb",
+           (int)strspn(suffix, LETTERS), suffix);
+  struct iovec text = {line, strlen(line)};
+  struct msghdr message = {.msg_iov = &text,
+                           .msg_iovlen = 1,
+                           .msg_control = control.bytes,
+                           .msg_controllen = sizeof control.bytes};
+  control.header.cmsg_level = SOL_SOCKET;
+  control.header.cmsg_type = SCM_RIGHTS;
+  control.header.cmsg_len = CMSG_LEN(sizeof in);
+  memcpy(CMSG_DATA(&control.header), &in, sizeof in);
+  if (sendmsg(images->requests, &message, MSG_NOSIGNAL) >= 0) return RESULT_OK;
+  return result_fail(error, RESULT_IO, "%s broke off", PROGRAM);
+}
+
+/* Ends the program, which reads on until there are no more requests. Where it failed, its own words
+ * say why. */
+static enum result end(struct slab_images *images, struct error *error) {
+  enum result result = RESULT_OK;
+  if (images->requests >= 0) close(images->requests);
+  if (images->answers) fclose(images->answers);
+  if (images->process.pid > 0) result = process_wait(&images->process, error);
+  free(images->program);
+  *images = (struct slab_images){0};
   return result;
 }
 
@@ -84,25 +119,39 @@ static enum result keep_bytes(const void *bytes, size_t size, int *fd, struct er
   return result_fail(error, RESULT_IO, "%s", strerror(errno));
 }
 
-enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
-                            enum slab_image_colours colours, struct picture *picture,
-                            struct slab_image_says *says, struct error *error) {
+enum result slab_images_read(struct slab_images *images, const char *path, const void *bytes,
+                             size_t size, const char *suffix, enum slab_image_colours colours,
+                             struct picture *picture, struct slab_image_says *says,
+                             struct error *error) {
   const char *dot = strrchr(path, '.');
   struct slab_image_says unasked;
   int in = -1;
   *picture = (struct picture){0};
   if (!suffix) suffix = dot ? dot + 1 : "";
-  char *program = files_beside_program(PROGRAM);
   enum result result = bytes ? keep_bytes(bytes, size, &in, error) : open_file(path, &in, error);
-  if (result == RESULT_OK && !program)
-    result = result_fail(error, RESULT_IO,
-                         "%s, which reads images, is not where this program was installed; run "
-                         "`make` or `make install` again",
-                         PROGRAM);
-  if (result == RESULT_OK)
-    result = run(program, suffix, colours, in, picture, says ? says : &unasked, error);
+  if (result == RESULT_OK && !images->program) result = start(images, error);
+  if (result == RESULT_OK) {
+    result = ask(images, suffix, colours, in, error);
+    if (result == RESULT_OK) result = take(images->answers, picture, says ? says : &unasked, error);
+    if (result != RESULT_OK && end(images, result == RESULT_MEMORY ? NULL : error) != RESULT_OK &&
+        result != RESULT_MEMORY)
+      result = RESULT_BAD;
+  }
   if (result != RESULT_OK) picture_free(picture);
   if (in >= 0) close(in);
-  free(program);
   return result_at(result, error, "%s", path);
+}
+
+void slab_images_close(struct slab_images *images) {
+  if (images->program) end(images, NULL);
+}
+
+enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
+                            enum slab_image_colours colours, struct picture *picture,
+                            struct slab_image_says *says, struct error *error) {
+  struct slab_images images = {0};
+  enum result result =
+      slab_images_read(&images, path, bytes, size, suffix, colours, picture, says, error);
+  slab_images_close(&images);
+  return result;
 }

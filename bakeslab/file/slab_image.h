@@ -6,8 +6,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include <stdio.h>
+
 #include "base/picture.h"
-#include "base/result.h"
+#include "base/process.h"
 
 /* What counts for the colours of an image. */
 enum slab_image_colours {
@@ -39,5 +41,22 @@ struct slab_image_says {
 enum result slab_image_read(const char *path, const void *bytes, size_t size, const char *suffix,
                             enum slab_image_colours colours, struct picture *picture,
                             struct slab_image_says *says, struct error *error);
+
+/* The program, kept running for one image after the other: starting it takes as long as reading
+ * many small ones. Zeroed ones have not been started; to be closed in any case. */
+struct slab_images {
+  char *program;        /* its path; owned; NULL: not started */
+  const char *words[2]; /* of the command */
+  struct process process;
+  int requests;  /* a socket */
+  FILE *answers; /* a pipe */
+};
+
+/* As slab_image_read. */
+enum result slab_images_read(struct slab_images *images, const char *path, const void *bytes,
+                             size_t size, const char *suffix, enum slab_image_colours colours,
+                             struct picture *picture, struct slab_image_says *says,
+                             struct error *error);
+void slab_images_close(struct slab_images *images);
 
 #endif

@@ -1,21 +1,25 @@
-/* bakeslab-image.cc - reads the image on standard input, which must be a file, by OpenImageIO,
- * and writes it as linear Rec. 709: a line
- *   WIDTH HEIGHT TRANSPARENT SEVERAL INTEGERS ASPECT
- * (TRANSPARENT: 1 where an alpha is below 1, else 0; SEVERAL: 1 where the file has other pictures,
- * which are not read, else 0; INTEGERS: 1 where it holds integers, else 0; ASPECT: a pixel's width
- * by its height) and then this machine's floats, rows downwards. file/slab_image.h says what is
- * read how; the arguments are the suffix and the colours that it names. What is wrong is one line
- * on standard error, and the exit status 1.
+/* bakeslab-image.cc - reads images by OpenImageIO, one after the other. Standard input is a socket
+ * of messages, each with an open file, the image, and a line
+ *   own|srgb SUFFIX
+ * (file/slab_image.h says what is read how, and what these name). For each it writes linear Rec.
+ * 709: a line WIDTH HEIGHT TRANSPARENT SEVERAL INTEGERS ASPECT (TRANSPARENT: 1 where an alpha is
+ * below 1, else 0; SEVERAL: 1 where the file has other pictures, which are not read, else 0;
+ * INTEGERS: 1 where it holds integers, else 0; ASPECT: a pixel's width by its height) and then this
+ * machine's floats, rows downwards. What is wrong is one line on standard error, and the exit
+ * status 1: no image is read after one that is refused.
  *
  * A program of its own, since OpenImageIO is 261 libraries. */
 #include <OpenImageIO/imageio.h>
 #include <fcntl.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -166,7 +170,7 @@ static void write_row(const Picture &picture, int row, std::vector<float> &rgb) 
   std::fwrite(rgb.data(), sizeof(float), rgb.size(), stdout);
 }
 
-static void copy_image(const char *suffix, bool own) {
+static void copy_image(const std::string &suffix, bool own) {
   ImageSpec spec;
   Says says = says_read({STDIN_FILENO}, suffix);
   std::unique_ptr<ImageInput> in = open_image(says.format, spec);
@@ -200,14 +204,51 @@ static void copy_image(const char *suffix, bool own) {
     throw std::runtime_error("its pixels cannot be passed on");
 }
 
-int main(int argc, char **argv) {
-  int errors = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3); /* libraries talk on the other */
-  if (argc != 3 || !std::freopen("/dev/null", "w", stderr)) {
-    dprintf(errors, "usage: bakeslab-image SUFFIX own|srgb <IMAGE >PIXELS\n");
+/* ---- Requests ---- */
+
+struct Request {
+  bool own;
+  std::string suffix;
+};
+
+/* The next one, whose image becomes standard input; none: there are no more. */
+static std::optional<Request> next_request(int requests) {
+  char line[64];
+  union {
+    char bytes[CMSG_SPACE(sizeof(int))];
+    cmsghdr header;
+  } control = {};
+  iovec text = {line, sizeof line};
+  msghdr message = {};
+  message.msg_iov = &text;
+  message.msg_iovlen = 1;
+  message.msg_control = control.bytes;
+  message.msg_controllen = sizeof control.bytes;
+  ssize_t got = recvmsg(requests, &message, MSG_CMSG_CLOEXEC);
+  if (got <= 0 || message.msg_controllen < sizeof control.header) return std::nullopt;
+  int image;
+  std::memcpy(&image, CMSG_DATA(&control.header), sizeof image);
+  bool put = dup2(image, STDIN_FILENO) >= 0;
+  close(image);
+  std::string words(line, size_t(got));
+  size_t blank = words.find(' ');
+  if (!put || blank == std::string::npos) return std::nullopt;
+  return Request{words.substr(0, blank) == "own", words.substr(blank + 1)};
+}
+
+int main(int argc, char **) {
+  /* libraries talk on the standard one */
+  int errors = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  int requests = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3), kind = 0;
+  socklen_t size = sizeof kind;
+  if (argc != 1 || getsockopt(requests, SOL_SOCKET, SO_TYPE, &kind, &size) != 0 ||
+      kind != SOCK_SEQPACKET || !std::freopen("/dev/null", "w", stderr)) {
+    dprintf(errors, "bakeslab and renderslab run this to read images\n");
     return 2;
   }
   try {
-    copy_image(argv[1], std::string(argv[2]) == "own");
+    while (std::optional<Request> request = next_request(requests))
+      copy_image(request->suffix, request->own);
     return 0;
   } catch (const std::bad_alloc &) {
     dprintf(errors, "is too large for the memory\n");

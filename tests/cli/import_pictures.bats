@@ -120,12 +120,12 @@ POV
   grey photo.png 0.5 4x4 uint8
   grey sixteen.tif 0.5 4x4 uint16
   posed a.exr wide.exr
-  declines 1 "wide.exr: is 6 x 4 pixels, not 4 x 4" -- transforms.json -o s.exr "${where[@]}" "${window[@]}"
+  declines 1 "transforms.json: frame 2: wide.exr: is 6 x 4 pixels, not 4 x 4" -- transforms.json -o s.exr "${where[@]}" "${window[@]}"
   posed a.exr gone.exr
-  declines 1 "gone.exr: No such file" -- transforms.json -o s.exr "${where[@]}" "${window[@]}"
+  declines 1 "transforms.json: frame 2: gone.exr: No such file" -- transforms.json -o s.exr "${where[@]}" "${window[@]}"
   for name in photo.png sixteen.tif; do
     posed $name
-    declines 1 "$name: is not linear" -- transforms.json -o s.exr "${where[@]}" "${window[@]}"
+    declines 1 "transforms.json: frame 1: $name: is not linear" -- transforms.json -o s.exr "${where[@]}" "${window[@]}"
   done
   for name in u0v0 u1v0 u0v1 u1v1; do grey $name.exr 1; done
   grey u1v1.exr 1 5x4

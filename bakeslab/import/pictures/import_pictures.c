@@ -37,13 +37,13 @@ static enum result views_geometry(const struct import_wish *wish, struct slab *s
 }
 
 /* Puts view (i, j) into the slab; the first allocates it. */
-static enum result add_view(const struct import_wish *wish, int i, int j, struct slab *slab,
-                            struct error *error) {
+static enum result add_view(const struct import_wish *wish, struct slab_images *images, int i,
+                            int j, struct slab *slab, struct error *error) {
   struct picture picture = {0};
   char *path = views_name(wish->files[0], i, j);
   if (!path) return result_no_memory(error);
   enum result result =
-      light_picture_read(path, wish->exposure > 0 ? wish->exposure : 1, &picture, error);
+      light_picture_read(images, path, wish->exposure > 0 ? wish->exposure : 1, &picture, error);
   if (result == RESULT_OK && !slab->rgb) {
     slab->samples[SLAB_S] = picture.width;
     slab->samples[SLAB_T] = picture.height;
@@ -87,10 +87,12 @@ static enum result views_slabs(const struct import_wish *wish, struct import_lig
   light->count = 1;
   struct slab *slab = light->slabs;
   enum result result = result_at(views_geometry(wish, slab, error), error, "%s", wish->files[0]);
+  struct slab_images images = {0};
   int views[2] = {slab->samples[SLAB_U], slab->samples[SLAB_V]};
   for (int j = 0; j < views[1] && result == RESULT_OK; ++j)
     for (int i = 0; i < views[0] && result == RESULT_OK; ++i)
-      result = add_view(wish, i, j, slab, error);
+      result = add_view(wish, &images, i, j, slab, error);
+  slab_images_close(&images);
   if (result == RESULT_OK) result = resample(wish, slab, error);
   if (result == RESULT_OK) result = slab_flux_metric(slab, rgb, error);
   if (result != RESULT_OK) return result;

@@ -3,12 +3,11 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "file/slab_image.h"
-
-enum result light_picture_read(const char *path, double factor, struct picture *picture,
-                               struct error *error) {
+enum result light_picture_read(struct slab_images *images, const char *path, double factor,
+                               struct picture *picture, struct error *error) {
   struct slab_image_says says;
-  enum result result = slab_image_read(path, NULL, 0, NULL, SLAB_IMAGE_OWN, picture, &says, error);
+  enum result result =
+      slab_images_read(images, path, NULL, 0, NULL, SLAB_IMAGE_OWN, picture, &says, error);
   if (result != RESULT_OK) return result;
   if (says.integers)
     result = result_fail(error, RESULT_BAD,

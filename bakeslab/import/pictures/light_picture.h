@@ -2,13 +2,12 @@
 #ifndef LIGHT_PICTURE_H
 #define LIGHT_PICTURE_H
 
-#include "base/picture.h"
-#include "base/result.h"
+#include "file/slab_image.h"
 
-/* Reads a picture as slab_image_read does, times a factor; picture_free frees it. Refused, naming
+/* Reads a picture as slab_images_read does, times a factor; picture_free frees it. Refused, naming
  * the file: integers, which no camera stores in proportion to light, transparent pixels, several
  * pictures in a file, pixels that are not square. */
-enum result light_picture_read(const char *path, double factor, struct picture *picture,
-                               struct error *error);
+enum result light_picture_read(struct slab_images *images, const char *path, double factor,
+                               struct picture *picture, struct error *error);
 
 #endif

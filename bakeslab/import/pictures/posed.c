@@ -29,6 +29,7 @@ struct work {
   struct poses poses;
   struct ray_pages pages;
   struct posed_rays rays;
+  struct slab_images images;
 };
 
 /* ---- Steps 1 and 2 ---- */
@@ -161,7 +162,7 @@ static enum result add_picture(struct work *work, int n, int first[2], struct er
   char *path = find_picture(work, pose);
   if (!path) return result_no_memory(error);
   double exposure = wish->exposure > 0 ? wish->exposure : 1;
-  enum result result = light_picture_read(path, exposure, &picture, error);
+  enum result result = light_picture_read(&work->images, path, exposure, &picture, error);
   if (result == RESULT_OK) result = check_size(pose, &picture, first, path, error);
   if (result == RESULT_OK) {
     result = posed_rays_add(&work->rays, pose, &picture, wish->vignetting, (uint32_t)n, error);
@@ -169,7 +170,7 @@ static enum result add_picture(struct work *work, int n, int first[2], struct er
   }
   picture_free(&picture);
   free(path);
-  return result;
+  return result_at(result, error, "%s: frame %d", work->path, n + 1);
 }
 
 static enum result add_pictures(struct work *work, struct error *error) {
@@ -299,6 +300,7 @@ enum result posed_slabs(const struct import_wish *wish, struct import_light *lig
   if (result == RESULT_OK) result = lay_pages(work, error);
   if (result == RESULT_OK) result = add_pictures(work, error);
   if (result == RESULT_OK) result = fill_pages(work, light, error);
+  slab_images_close(&work->images);
   posed_rays_free(&work->rays);
   poses_free(&work->poses);
   free(work);
