@@ -87,9 +87,9 @@ endif
 # those that build programs of their own (without sanitizer); what uses threads under the thread
 # sanitizer; the fuzzers; and more of every fault.
 SANITIZE_TESTS ?= $(filter-out house/install house/makefile house/setup,$(TEST_NAMES))
-# Threads are those of render/tiles.c: whoever gathers light, or makes levels and trees for that;
-# bakeslab has none. gcc 12's thread sanitizer dies where addresses are too random: setarch.
-THREAD_TESTS ?= render/test_tiles render/test_visible render/test_cut render/test_limits render/test_gl render/image render/tradeoff numerics/%
+# Threads are those of bakeslab/base/tiles.c: whoever gathers light, or makes levels and trees for that, and
+# ray files of bakeslab. gcc 12's thread sanitizer dies where addresses are too random: setarch.
+THREAD_TESTS ?= render/test_tiles unit/test_ray_estimate render/test_visible render/test_cut render/test_limits render/test_gl render/image render/tradeoff numerics/%
 sanitize_step = $(MAKE) --no-print-directory TEST_TIMEOUT=1800
 
 .PHONY: sanitize

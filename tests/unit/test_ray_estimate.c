@@ -6,6 +6,7 @@
 #include "import/rays/ray_estimate.h"
 #include "import/rays/ray_etendue.h"
 #include "import/rays/ray_held_out.h"
+#include "import/rays/ray_partition.h"
 #include "oracle/known_rays.h"
 #include "oracle/random.h"
 #include "testing.h"
@@ -38,7 +39,7 @@ static struct ray_estimate *shoot(enum known_kind kind, int rays, uint64_t seed,
   struct ray_estimate *estimate;
   double abst[SLAB_AXES], rgb[3];
   *all = 0;
-  assert_int_equal(ray_estimate_new(&page, coloured, tolerance, &estimate, NULL), RESULT_OK);
+  assert_int_equal(ray_estimate_new(&page, coloured, tolerance, 2, &estimate, NULL), RESULT_OK);
   for (int n = 0; n < rays; ++n) {
     known_ray(kind, &seed, abst);
     give(abst, &seed, rgb);
@@ -188,14 +189,10 @@ TEST(test_held_out) {
   double *etendue = ray_etendue(&page), *density = calloc(cells, sizeof *density), square = 0;
   float *counts = malloc(2 * cells * sizeof *counts);
   ray_bins_cells(&bins, etendue, 0, false, counts, counts + cells);
-  struct ray_cells rays = {{NU, NU, NS, NS}, counts, counts + cells};
-  for (int pass = 0; pass < RAY_PASSES; ++pass)
-    assert_int_equal(ray_partition_add(&rays, pass, density, &posterior, NULL), RESULT_OK);
+  struct ray_cells rays = {{NU, NU, NS, NS}, counts, counts + cells, 1};
+  assert_int_equal(ray_partition(&rays, density, &posterior, NULL), RESULT_OK);
   assert_int_equal(ray_held_out(&bins, etendue, &held_out, NULL), RESULT_OK);
-  for (size_t n = 0; n < cells; ++n) {
-    density[n] /= RAY_PASSES;
-    square += etendue[n] * density[n] * density[n];
-  }
+  for (size_t n = 0; n < cells; ++n) square += etendue[n] * density[n] * density[n];
   double error = error_of(KNOWN_BARS, density, bins.flux[0]);
   assert_near(sqrt(held_out.likely / square), error, 0.15 * error);
   assert_true(held_out.least > 0 && held_out.least < held_out.likely);
@@ -213,7 +210,7 @@ TEST(test_edge) {
   enum { EDGE = 13 * 3 * 11 * 5 };
   static float count[EDGE], exposure[EDGE];
   static double density[EDGE];
-  struct ray_cells cells = {{13, 3, 11, 5}, count, exposure};
+  struct ray_cells cells = {{13, 3, 11, 5}, count, exposure, 1};
   struct ray_posterior posterior;
   struct slab grid = {.samples = {13, 3, 11, 5}};
   double counted = 0, kept = 0;
@@ -224,7 +221,7 @@ TEST(test_edge) {
     count[n] = at[SLAB_U] < 7 && at[SLAB_S] >= 5 ? 20 : 0;
     counted += (double)count[n];
   }
-  assert_int_equal(ray_partition_add(&cells, 3, density, &posterior, NULL), RESULT_OK);
+  assert_int_equal(ray_partition(&cells, density, &posterior, NULL), RESULT_OK);
   for (size_t n = 0; n < EDGE; ++n) {
     if (count[n] > 0)
       assert_near(density[n], 10, 0.05);
@@ -233,6 +230,26 @@ TEST(test_edge) {
     kept += density[n] * 2;
   }
   assert_near(kept, counted, 1e-6 * counted);
+}
+
+/* ---- Threads ---- */
+
+TEST(test_threads) {
+  enum { NUMBERS = 5 * 3 * 7 * 22 };
+  static float count[NUMBERS], exposure[NUMBERS];
+  static double density[2][NUMBERS];
+  struct ray_posterior posterior[2];
+  uint64_t seed = 7;
+  for (size_t n = 0; n < NUMBERS; ++n) {
+    exposure[n] = (float)random_between(&seed, 1, 2);
+    count[n] = n % 3 ? (float)random_between(&seed, 0, 9) : 0;
+  }
+  for (int k = 0; k < 2; ++k) {
+    struct ray_cells cells = {{5, 3, 7, 22}, count, exposure, k ? 5 : 1};
+    assert_int_equal(ray_partition(&cells, density[k], &posterior[k], NULL), RESULT_OK);
+  }
+  assert_memory_equal(density[0], density[1], sizeof density[0]);
+  assert_memory_equal(&posterior[0], &posterior[1], sizeof posterior[0]);
 }
 
 /* ---- Colours ---- */
@@ -261,8 +278,8 @@ TEST(test_refused) {
                inside[] = {0, 0, 0, 0};
   const double beside[] = {0.11, 0, 0, 0}, steep[] = {0, 0, 0, -1.6}, lost[] = {0, NAN, 0, 0};
   struct slab huge = known_page(KNOWN_BARS, 1000, 1000);
-  assert_int_equal(ray_estimate_new(&huge, false, 0, &estimate, NULL), RESULT_BAD);
-  assert_int_equal(ray_estimate_new(&page, false, 0, &estimate, NULL), RESULT_OK);
+  assert_int_equal(ray_estimate_new(&huge, false, 0, 1, &estimate, NULL), RESULT_BAD);
+  assert_int_equal(ray_estimate_new(&page, false, 0, 1, &estimate, NULL), RESULT_OK);
   assert_false(ray_estimate_add(estimate, beside, white));
   assert_false(ray_estimate_add(estimate, steep, white));
   assert_false(ray_estimate_add(estimate, lost, white));

@@ -193,25 +193,27 @@ static const char *damaged(size_t at, uint32_t word, int more) {
 
 TEST(test_tm25_refused) {
   const struct ray_format *format = &ray_format_tm25;
-  const uint32_t nan = 0x7fc00000, minus = 0xbf800000;
+  const uint32_t nan = 0x7fc00000, minus = 0xbf800000, huge = 0x7149f2ca;
   assert_refuses(damaged(4, 2014, 0), format, "byte 4", "version 2014");
-  assert_refuses(damaged(20, 0, 0), format, "promises no rays", "");
+  assert_refuses(damaged(20, 0, 0), format, "byte 20", "promises no rays");
   assert_refuses(damaged(20, 1000000000, 0), format, "byte 36372", "ray 4 of the 1000000000");
   assert_refuses(damaged(24, 0xffffffff, 0), format, "byte 36372", "ray 4 of");
   assert_refuses(damaged(20, 2, 0), format, "byte 36344", "goes on after the 2 rays");
   assert_refuses(damaged(4, 2013, -1), format, "byte 36371", "ray 3 of the 3");
   assert_refuses(damaged(4, 2013, 1), format, "byte 36372", "goes on after");
   assert_refuses(damaged(4, 2013, -36272), format, "byte 100", "header");
-  assert_refuses(damaged(4, 2013, -30000), format, "byte 6372", "ray 1 of");
+  assert_refuses(damaged(4, 2013, -30000), format, "byte 6372", "within its header");
   assert_refuses(damaged(76, 1000000000, 0), format, "byte 76", "spectral tables");
   assert_refuses(damaged(80, 0x80000000, 0), format, "byte 80", "additional columns");
-  assert_refuses(damaged(84, 0xffffffff, 1), format, "byte 36373", "ray 1 of");
+  assert_refuses(damaged(84, 0xffffffff, 1), format, "byte 36373", "within its header");
   assert_refuses(damaged(256, 0, 0), format, "byte 256", "no place");
   assert_refuses(damaged(264, 0, 0), format, "byte 264", "no flux");
   assert_refuses(damaged(272, 7, 0), format, "byte 272", "flag");
   assert_refuses(damaged(36288 + 28 + 4, nan, 0), format, "byte 36316 (ray 2)", "not finite");
   assert_refuses(damaged(36288 + 16, 0, 0), format, "byte 36288 (ray 1)", "without direction");
   assert_refuses(damaged(36288 + 24, minus, 0), format, "(ray 1)", "flux of -1");
+  assert_refuses(damaged(36288 + 28, huge, 0), format, "byte 36316 (ray 2)", "within 1e+09 m");
+  assert_refuses(damaged(36288 + 24, huge, 0), format, "byte 36288 (ray 1)", "at most 1e+15");
   /* A table that is not there, in a file whose rays do not begin right behind the header. */
   made_over(&made, 36288 + 24, 0);
   made_over(&made, 76, 1);
@@ -254,7 +256,8 @@ TEST(test_zemax_refused) {
   static const struct {
     uint32_t rays, unit, type, flux;
     const char *where, *what;
-  } cases[] = {{0, 4, 0, 0, "promises no rays", ""},
+  } cases[] = {{0, 4, 0, 0, "byte 4", "promises no rays"},
+               {(uint32_t)-5, 4, 0, 0, "byte 4", "promises -5 rays"},
                {2, 4, 0, 0, "byte 236", "goes on after the 2"},
                {1, 4, 2, 0, "byte 236", "ray 1 of the 1"},
                {1000000000, 4, 0, 0, "byte 236", "ray 2 of the 1000000000"},
@@ -315,6 +318,8 @@ TEST(test_text_refused) {
   assert_refuses(written("# x\n0 0 0 0 0 0 1\n"), format, "line 2", "without direction");
   assert_refuses(written("0 0 0 0 0 1 -1\n"), format, "line 1", "flux of -1");
   assert_refuses(written("9 4 0 0 0 0 0\n"), format, "line 1", "Zemax");
+  assert_refuses(written("#\n0 1e200 0 0 0 1 1\n"), format, "line 2", "at 1e+200 m");
+  assert_refuses(written("0 0 0 0 0 1 1e20\n"), format, "line 1", "flux of 1e+20");
   memset(longer, '1', sizeof longer - 1);
   assert_refuses(written(longer), format, "line 1", "characters");
   write_bytes(scratch("n.txt"), "0 0 0 0 0 1 1\n0 0\0 0 0 0 1 1\n", 29);
@@ -330,7 +335,7 @@ TEST(test_no_file) {
 TEST(test_kinds) {
   static const char *const texts[] = {"# c\n\n 1 2 3",    "1 2", "#",    "",
                                       "IESNA:LM-63\n1 2", "1",   "x 1 2"};
-  static const bool is_text[] = {true, true, false, false, false, false, false};
+  static const bool is_text[] = {true, true, true, false, false, false, false};
   for (int k = 0; k < 7; ++k) {
     assert_true(ray_format_text.is(texts[k], strlen(texts[k])) == is_text[k]);
     assert_false(ray_format_tm25.is(texts[k], strlen(texts[k])));

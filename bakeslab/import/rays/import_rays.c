@@ -4,7 +4,9 @@
  * 2. Apertures are laid there, with windows that hold their light (ray_lay.h).
  * 3. All rays are read again: each is carried along its line to its page, and counted there
  *    (ray_estimate.h). What reaches none is told.
- * 4. The counts become samples. */
+ * 4. The counts become samples.
+ * While some rays of a file are read, a second thread does what is to be done with those before
+ * them: all of it in the order of the file, with any number of threads. */
 #include "import/rays/import_rays.h"
 
 #include <math.h>
@@ -12,10 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/tiles.h"
 #include "import/rays/ray_estimate.h"
 #include "import/rays/ray_lay.h"
 
-enum { AT_A_TIME = 1024, KEPT = 1 << 17, DEFAULT_UV = 16, DEFAULT_ST = 64 };
+enum { AT_A_TIME = 1 << 14, KEPT = 1 << 17, DEFAULT_UV = 16, DEFAULT_ST = 64 };
 
 /* The work on one lamp. */
 struct lamp {
@@ -24,8 +27,10 @@ struct lamp {
   struct ray_look look;
   struct ray_pages pages;
   struct ray_estimate *estimates[RAY_PAGES_MOST];
-  bool lumens, coloured;             /* as the files say */
-  double factor;                     /* of all flux, by --lumens */
+  bool lumens, coloured; /* as the files say */
+  double factor;         /* of all flux, by --lumens */
+  int threads;
+  unsigned long long read;           /* rays */
   unsigned long long missed, beyond; /* rays that reach no page, or leave outside its window */
   double missed_flux, beyond_flux;
 };
@@ -43,13 +48,50 @@ static bool in_lumens(const struct lamp *lamp) {
 /* Steps 1 and 3 of one file. */
 typedef void use_rays(struct lamp *lamp, const struct ray *rays, size_t count);
 
+/* Rays of a file, of which those of one batch are read and those of the other are used. */
+struct batches {
+  struct lamp *lamp;
+  struct ray_file *file;
+  use_rays *use;
+  struct ray *rays; /* 2 * AT_A_TIME */
+  size_t count[2];
+  int read; /* which is read */
+};
+
+static enum result read_or_use(void *context, int tile, int worker, struct error *error) {
+  struct batches *batches = context;
+  int number = tile == 0 ? batches->read : !batches->read;
+  struct ray *rays = batches->rays + number * AT_A_TIME;
+  size_t *count = &batches->count[number], got = 1;
+  (void)worker;
+  if (tile == 1) {
+    batches->use(batches->lamp, rays, *count);
+    return RESULT_OK;
+  }
+  enum result result = RESULT_OK;
+  for (*count = 0; result == RESULT_OK && got > 0 && *count < AT_A_TIME; *count += got)
+    result = ray_file_read(batches->file, rays + *count, AT_A_TIME - *count, &got, error);
+  return result;
+}
+
+static enum result use_file(struct lamp *lamp, struct ray_file *file, use_rays *use,
+                            struct error *error) {
+  struct batches batches = {.lamp = lamp, .file = file, .use = use};
+  batches.rays = malloc(2 * AT_A_TIME * sizeof *batches.rays);
+  enum result result = batches.rays ? RESULT_OK : result_no_memory(error);
+  for (bool more = true; more && result == RESULT_OK; batches.read = !batches.read) {
+    result = tiles_run(lamp->threads, 2, read_or_use, NULL, &batches, error);
+    more = batches.count[batches.read] > 0;
+  }
+  free(batches.rays);
+  return result;
+}
+
 static enum result read_file(struct lamp *lamp, int number, use_rays *use, struct error *error) {
   const struct import_wish *wish = lamp->wish;
   const char *path = wish->files[number];
   struct ray_file file;
-  struct ray rays[AT_A_TIME];
   struct warnings notes = {0};
-  size_t count = 1;
   enum result result = ray_file_open(path, lamp->format, unit_of(wish), &notes, &file, error);
   if (result != RESULT_OK) return result;
   double before = ray_luminance(lamp->look.flux);
@@ -59,10 +101,7 @@ static enum result read_file(struct lamp *lamp, int number, use_rays *use, struc
     result = result_fail(error, RESULT_BAD,
                          "%s: its flux is in another unit than that of %s: import them one by one",
                          path, wish->files[0]);
-  while (result == RESULT_OK && count > 0) {
-    result = ray_file_read(&file, rays, AT_A_TIME, &count, error);
-    if (result == RESULT_OK) use(lamp, rays, count);
-  }
+  if (result == RESULT_OK) result = use_file(lamp, &file, use, error);
   double flux = ray_luminance(lamp->look.flux) - before;
   if (result == RESULT_OK && flux > 0 && fabs(file.stated / flux - 1) > 0.01)
     warnings_add(&notes,
@@ -85,6 +124,7 @@ static enum result read_files(struct lamp *lamp, use_rays *use, struct error *er
 /* ---- Step 1 ---- */
 
 static void look_at(struct lamp *lamp, const struct ray *rays, size_t count) {
+  lamp->read += count;
   ray_look_add(&lamp->look, rays, count);
 }
 
@@ -93,10 +133,9 @@ static enum result look(struct lamp *lamp, struct error *error) {
   enum result result = ray_look_new(&lamp->look, KEPT, error);
   if (result == RESULT_OK) result = read_files(lamp, look_at, error);
   double flux = ray_luminance(lamp->look.flux);
-  if (result == RESULT_OK && !(flux > 0 && isfinite(flux)))
+  if (result == RESULT_OK && !(flux > 0))
     result = result_fail(error, RESULT_BAD, "%s: %s", wish->files[0],
-                         lamp->look.rays ? "its rays carry too much flux"
-                                         : "has no rays that carry flux");
+                         lamp->read ? "has no rays that carry flux" : "has no rays, only comments");
   if (wish->lumens > 0) lamp->factor = wish->lumens / flux;
   return result;
 }
@@ -148,7 +187,8 @@ static enum result lay_pages(struct lamp *lamp, struct error *error) {
     }
     snprintf(page->radiance_unit, sizeof page->radiance_unit, "%s",
              in_lumens(lamp) ? "cd/m2" : "W/(sr m2)");
-    result = ray_estimate_new(page, lamp->coloured, wish->tolerance, &lamp->estimates[n], error);
+    result = ray_estimate_new(page, lamp->coloured, wish->tolerance, lamp->threads,
+                              &lamp->estimates[n], error);
   }
   return result_at(result, error, "%s", wish->files[0]);
 }
@@ -251,7 +291,7 @@ static enum result finish(struct lamp *lamp, struct import_light *light, struct 
 
 static enum result import(const struct import_wish *wish, const struct ray_format *format,
                           struct import_light *light, struct error *error) {
-  struct lamp lamp = {.wish = wish, .format = format, .factor = 1};
+  struct lamp lamp = {.wish = wish, .format = format, .factor = 1, .threads = tiles_processors()};
   enum result result = look(&lamp, error);
   if (result == RESULT_OK) result = lay_pages(&lamp, error);
   if (result == RESULT_OK) result = read_files(&lamp, carry, error);

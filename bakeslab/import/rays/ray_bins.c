@@ -15,10 +15,24 @@ enum {
   MEAN_RAYS = 8 /* of the whole page, that a block's rays are mixed with */
 };
 
+static bool find_blocks(struct ray_bins *bins) {
+  const int *samples = bins->page.samples;
+  size_t all = 0;
+  for (int axis = 0; axis < SLAB_AXES; ++axis) all += (size_t)samples[axis];
+  unsigned char *block = bins->block[0] = malloc(all);
+  for (int axis = 0; axis < SLAB_AXES && bins->block[0]; ++axis) {
+    bins->block[axis] = block;
+    for (int at = 0; at < samples[axis]; ++at)
+      *block++ = (unsigned char)((long)at * BLOCKS / samples[axis]);
+  }
+  return bins->block[0] != NULL;
+}
+
 enum result ray_bins_new(const struct slab *page, bool coloured, struct ray_bins *bins,
                          struct error *error) {
   static const int order[] = {SLAB_S, SLAB_U, SLAB_T, SLAB_V};
-  *bins = (struct ray_bins){.channels = coloured ? 3 : 1, .luminance = coloured ? 1 : 0};
+  *bins =
+      (struct ray_bins){.channels = coloured ? 3 : 1, .luminance = coloured ? 1 : 0, .threads = 1};
   enum result result = slab_check(page, error);
   if (result == RESULT_OK) result = slab_copy_geometry(page, &bins->page, error);
   if (result != RESULT_OK) return result;
@@ -32,7 +46,7 @@ enum result ray_bins_new(const struct slab *page, bool coloured, struct ray_bins
   }
   bins->sums = calloc(cells, (channels + 1) * sizeof *bins->sums);
   bins->blocks = calloc(ALL_BLOCKS, 2 * channels * sizeof *bins->blocks);
-  if (bins->sums && bins->blocks) return RESULT_OK;
+  if (bins->sums && bins->blocks && find_blocks(bins)) return RESULT_OK;
   ray_bins_free(bins);
   return result_no_memory(error);
 }
@@ -41,6 +55,7 @@ void ray_bins_free(struct ray_bins *bins) {
   slab_free(&bins->page);
   free(bins->sums);
   free(bins->blocks);
+  free(bins->block[0]);
   *bins = (struct ray_bins){0};
 }
 
@@ -74,7 +89,7 @@ bool ray_bins_add(struct ray_bins *bins, const double abst[SLAB_AXES], const dou
     if (!(x >= 0 && x <= count)) return false;
     int at = x < count ? (int)x : count - 1;
     cell += (size_t)at * bins->step[axis];
-    block = block * BLOCKS + (size_t)(at * BLOCKS / count);
+    block = block * BLOCKS + bins->block[axis][at];
   }
   if (!find_flux(bins, rgb, flux)) return false;
   double *sum = bins->sums + cell * ((size_t)bins->channels + 1);
@@ -124,6 +139,7 @@ enum result ray_bins_coarser(const struct ray_bins *bins, const int halvings[SLA
   memcpy(coarser->square, bins->square, sizeof bins->square);
   coarser->rays = bins->rays;
   coarser->held = bins->held;
+  coarser->threads = bins->threads;
   return RESULT_OK;
 }
 
@@ -133,8 +149,7 @@ double ray_bins_quantum(const struct ray_bins *bins, size_t cell, int channel) {
   int at[SLAB_AXES];
   size_t block = 0;
   slab_locate(&bins->page, cell, at);
-  for (int axis = 0; axis < SLAB_AXES; ++axis)
-    block = block * BLOCKS + (size_t)(at[axis] * BLOCKS / bins->page.samples[axis]);
+  for (int axis = 0; axis < SLAB_AXES; ++axis) block = block * BLOCKS + bins->block[axis][at[axis]];
   const double *sum = bins->blocks + (block * (size_t)bins->channels + (size_t)channel) * 2;
   double mean = bins->square[channel] / bins->flux[channel];
   return (sum[1] + MEAN_RAYS * mean * mean) / (sum[0] + MEAN_RAYS * mean);

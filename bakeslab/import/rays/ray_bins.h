@@ -6,7 +6,6 @@
 #ifndef RAY_BINS_H
 #define RAY_BINS_H
 
-#include "import/rays/ray_partition.h"
 #include "slab/slab.h"
 
 struct ray_bins {
@@ -17,9 +16,12 @@ struct ray_bins {
   size_t step[SLAB_AXES];                /* of cells, in the order of slab->rgb's pixels */
   double *sums;   /* of each cell: flux by channel, then luminance of the rays held out; owned */
   double *blocks; /* of each block: flux and squared flux by channel; owned */
+  unsigned char
+      *block[SLAB_AXES]; /* of each cell of an axis: its block there; owned by the first */
   unsigned long long rays;
   double flux[3], square[3]; /* by channel: of all rays together; squared */
   double held;               /* luminance of those held out */
+  int threads;               /* to estimate by; 1 unless it is set */
 };
 
 enum result ray_bins_new(const struct slab *page, bool coloured, struct ray_bins *bins,

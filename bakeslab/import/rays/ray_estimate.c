@@ -14,7 +14,6 @@
 #include <string.h>
 
 #include "import/rays/ray_etendue.h"
-#include "import/rays/ray_partition.h"
 #include "import/rays/ray_samples.h"
 #include "slab/slab_resample.h"
 
@@ -23,14 +22,15 @@ struct ray_estimate {
   double tolerance, whole;
 };
 
-enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance,
+enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance, int threads,
                              struct ray_estimate **out, struct error *error) {
   struct ray_estimate *estimate = calloc(1, sizeof *estimate);
   *out = NULL;
   if (!estimate) return result_no_memory(error);
   estimate->tolerance = tolerance;
-  enum result result = ray_partition_check(page->samples, error);
+  enum result result = ray_boxes_check(page->samples, error);
   if (result == RESULT_OK) result = ray_bins_new(page, coloured, &estimate->bins, error);
+  estimate->bins.threads = threads;
   if (result == RESULT_OK)
     *out = estimate;
   else

@@ -15,8 +15,9 @@ struct ray_estimate; /* the rays of one page */
 
 /* For the geometry of `page` (slab.h; it is copied, and its samples are not read). With a
  * tolerance > 0 the samples are the finest that may be chosen, else those that will be given.
- * `coloured`: fluxes differ between red, green and blue. */
-enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance,
+ * `coloured`: fluxes differ between red, green and blue. Any number of threads gives the same
+ * bits. */
+enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance, int threads,
                              struct ray_estimate **estimate, struct error *error);
 void ray_estimate_free(struct ray_estimate *estimate);
 

@@ -26,6 +26,7 @@ struct ray_records {
   int x, z;          /* those of the tristimulus values X and Z, or 0 */
   double metres;     /* per unit of length */
   uint64_t promised; /* rays */
+  int promise;       /* the header's byte that says so */
   uint64_t next;     /* ray, from 0 */
 };
 

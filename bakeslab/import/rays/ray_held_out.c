@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "import/rays/ray_partition.h"
+
 enum { DEVIATIONS = 3 };
 
 struct cell {
@@ -33,12 +35,10 @@ static enum result estimate(const struct ray_bins *bins, const double *etendue, 
   float *counts = malloc(2 * count * sizeof *counts);
   struct ray_posterior posterior;
   if (!counts) return result_no_memory(error);
-  struct ray_cells cells = {.count = counts, .exposure = counts + count};
+  struct ray_cells cells = {.count = counts, .exposure = counts + count, .threads = bins->threads};
   for (int axis = 0; axis < SLAB_AXES; ++axis) cells.samples[axis] = bins->page.samples[axis];
   ray_bins_cells(bins, etendue, bins->luminance, false, counts, counts + count);
-  enum result result = RESULT_OK;
-  for (int pass = 0; pass < RAY_PASSES && result == RESULT_OK; ++pass)
-    result = ray_partition_add(&cells, pass, density, &posterior, error);
+  enum result result = ray_partition(&cells, density, &posterior, error);
   free(counts);
   return result;
 }
@@ -52,7 +52,7 @@ static void fill(const struct ray_bins *bins, const double *etendue, const doubl
   for (int axis = 0; axis < SLAB_AXES; ++axis) grid->samples[axis] = bins->page.samples[axis];
   for (size_t n = 0; n < slab_sample_count(&bins->page); ++n) {
     double per_flux = ray_bins_quantum(bins, n, bins->luminance) / share;
-    double flux = density[n] / RAY_PASSES * etendue[n];
+    double flux = density[n] * etendue[n];
     double held = bins->sums[n * numbers + numbers - 1] / share;
     grid->cells[n] = (struct cell){flux, held, per_flux * held, per_flux * flux, etendue[n]};
   }

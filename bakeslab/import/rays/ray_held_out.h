@@ -11,7 +11,7 @@ struct ray_held_out {
   double likely; /* of the error, as far as that grid shows it; NAN: nothing shows */
 };
 
-/* Of the mean of all passes of ray_partition_add. `etendue`: of each cell. */
+/* Of the estimate by ray_partition. `etendue`: of each cell. */
 enum result ray_held_out(const struct ray_bins *bins, const double *etendue,
                          struct ray_held_out *held_out, struct error *error);
 

@@ -20,12 +20,12 @@ void ray_look_free(struct ray_look *look) {
 
 /* Keeps a ray; where there is no room, every other one goes. */
 static void keep(struct ray_look *look, const struct ray *ray) {
-  if (look->rays % look->every) return;
+  if (look->rays & (look->every - 1)) return;
   if (look->kept_count == look->room) {
     look->kept_count /= 2;
     for (size_t n = 0; n < look->kept_count; ++n) look->kept[n] = look->kept[2 * n];
     look->every *= 2;
-    if (look->rays % look->every) return;
+    if (look->rays & (look->every - 1)) return;
   }
   look->kept[look->kept_count++] = *ray;
 }

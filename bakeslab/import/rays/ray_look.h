@@ -13,7 +13,7 @@ struct ray_look {
   double lines[6], sum[3]; /* of the virtual focus: see ray_look_focus */
   struct ray *kept;        /* every `every`-th of them; owned */
   size_t kept_count, room;
-  unsigned long long every;
+  unsigned long long every; /* a power of 2 */
 };
 
 /* Empty, with memory for `room` rays that are kept, an even number. */

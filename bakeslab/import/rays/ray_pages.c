@@ -15,7 +15,7 @@ static double length(const double x[3]) {
 }
 
 static double clamp(double x, double most) {
-  return fmax(-most, fmin(most, x));
+  return x > most ? most : x < -most ? -most : x;
 }
 
 enum result ray_pages_add(struct ray_pages *pages, const double center[3], const double u[3],
@@ -34,6 +34,10 @@ enum result ray_pages_add(struct ray_pages *pages, const double center[3], const
   if (result != RESULT_OK) return result_at(result, error, "page %d", pages->count + 1);
   page->half[0] = length(u) / 2;
   page->half[1] = length(v) / 2;
+  for (int k = 0; k < 2; ++k) {
+    page->edge[k] = on_edge * page->half[k];
+    page->inside[k] = page->half[k] / within;
+  }
   for (int c = 0; c < 3; ++c) {
     page->u[c] = u[c] / length(u);
     page->v[c] = v[c] / length(v);
@@ -55,9 +59,9 @@ int ray_pages_find(const struct ray_pages *pages, const struct ray *ray, double 
     if (!(fabs(steps) < closest)) continue;
     double slope_u = dot(ray->direction, page->u), slope_v = dot(ray->direction, page->v);
     double a = dot(point, page->u) + steps * slope_u, b = dot(point, page->v) + steps * slope_v;
-    if (!(fabs(a) <= on_edge * page->half[0] && fabs(b) <= on_edge * page->half[1])) continue;
-    abst[0] = clamp(a, page->half[0] / within); /* onto the rectangle, where it was on its edge */
-    abst[1] = clamp(b, page->half[1] / within);
+    if (!(fabs(a) <= page->edge[0] && fabs(b) <= page->edge[1])) continue;
+    abst[0] = clamp(a, page->inside[0]); /* onto the rectangle, where it was on its edge */
+    abst[1] = clamp(b, page->inside[1]);
     abst[2] = slope_u / forward;
     abst[3] = slope_v / forward;
     closest = fabs(steps);

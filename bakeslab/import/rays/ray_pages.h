@@ -13,7 +13,9 @@ enum { RAY_PAGES_MOST = IMPORT_APERTURES };
 struct ray_page {
   struct slab geometry; /* without samples; owns nothing */
   double u[3], v[3];    /* unit vectors */
-  double half[2];       /* the edges' half lengths */
+  double half[2];       /* the edges' half lengths: */
+  double edge[2];       /* rays up to there count, */
+  double inside[2];     /* and are moved to there */
 };
 
 struct ray_pages {

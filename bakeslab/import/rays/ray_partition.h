@@ -8,31 +8,21 @@
 #ifndef RAY_PARTITION_H
 #define RAY_PARTITION_H
 
-#include "slab/slab.h"
+#include "import/rays/ray_boxes.h"
 
 enum { RAY_PASSES = 4 }; /* whose mean is taken, each with its cuts elsewhere */
 
-/* Cells are in the order of slab->rgb's pixels. */
-struct ray_cells {
-  int samples[SLAB_AXES];
-  const float *count;    /* rays of a cell: flux over the flux of a ray there */
-  const float *exposure; /* their expected number at radiance 1: etendue over the same */
-};
-
-/* Of one pass: sums over cells, of the density and of what it may be about it. */
+/* Of one pass, on average: sums over cells, of what the density may be about its mean. */
 struct ray_posterior {
   double variance;      /* exposure times the density's variance */
   double view_variance; /* the density's variance, that of a box times its views: as if cells erred
                            independently, but sums over views by as much */
 };
 
-/* Refuses more samples than there is memory for: (2 Nu - 1)(2 Nv - 1)(2 Ns - 1)(2 Nt - 1) boxes of
- * 12 bytes are at most 4 GiB. */
-enum result ray_partition_check(const int samples[SLAB_AXES], struct error *error);
-
-/* Adds the expected density of each cell, count over exposure, by one pass to density[]. The trees'
- * cuts are at multiples of powers of two, less some cells that depend on the pass. */
-enum result ray_partition_add(const struct ray_cells *cells, int pass, double *density,
-                              struct ray_posterior *posterior, struct error *error);
+/* Fills in the expected density of each cell, count over exposure, the mean of RAY_PASSES. The
+ * trees' cuts are at multiples of powers of two, less some cells that depend on the pass. Refuses
+ * as ray_partition_check. */
+enum result ray_partition(const struct ray_cells *cells, double *density,
+                          struct ray_posterior *posterior, struct error *error);
 
 #endif

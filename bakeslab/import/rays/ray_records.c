@@ -22,12 +22,16 @@ enum result ray_records_begin(struct ray_file *file, uint64_t start, struct erro
   const struct ray_records *records = &file->records;
   uint64_t size = (uint64_t)records->columns * sizeof(float), there = file->bytes.size;
   unsigned long long promised = records->promised;
-  if (promised == 0) return result_fail(error, RESULT_BAD, "its header promises no rays");
-  if (there < start || (there - start) / size < promised)
+  if (promised == 0)
+    return result_fail(error, RESULT_BAD, "byte %d: its header promises no rays", records->promise);
+  if (there < start)
+    return result_fail(error, RESULT_BAD,
+                       "byte %llu: ends within its header, after which rays begin at byte %llu",
+                       (unsigned long long)there, (unsigned long long)start);
+  if ((there - start) / size < promised)
     return result_fail(
         error, RESULT_BAD, "byte %llu: ends within ray %llu of the %llu that its header promises",
-        (unsigned long long)there,
-        there < start ? 1ull : (unsigned long long)((there - start) / size + 1), promised);
+        (unsigned long long)there, (unsigned long long)((there - start) / size + 1), promised);
   if (there - start > promised * size)
     return result_fail(error, RESULT_BAD,
                        "byte %llu: goes on after the %llu rays that its header promises",
@@ -35,19 +39,44 @@ enum result ray_records_begin(struct ray_file *file, uint64_t start, struct erro
   return ray_bytes_seek(&file->bytes, start, error);
 }
 
-enum result ray_check(struct ray *ray, double metres, struct error *error) {
-  double *d = ray->direction, *o = ray->origin, largest = 0;
+/* Beyond these there is no lamp; up to them nothing that is computed of rays overflows. */
+static const double farthest = 1e9, brightest = 1e15;
+
+static enum result check_numbers(const struct ray *ray, double metres, struct error *error) {
   for (int c = 0; c < 3; ++c) {
-    if (!isfinite(o[c]) || !isfinite(d[c]) || !isfinite(ray->flux[c]))
+    if (!isfinite(ray->origin[c]) || !isfinite(ray->direction[c]) || !isfinite(ray->flux[c]))
       return result_fail(error, RESULT_BAD, "a ray with a number that is not finite");
-    largest = fmax(largest, fabs(d[c]));
-    o[c] *= metres;
+    if (fabs(ray->origin[c] * metres) > farthest)
+      return result_fail(error, RESULT_BAD, "a ray at %g m: must be within %g m",
+                         ray->origin[c] * metres, farthest);
+    if (fabs(ray->flux[c]) > brightest)
+      return result_fail(error, RESULT_BAD, "a ray with a flux of %g: at most %g can be read",
+                         ray->flux[c], brightest);
   }
-  if (!(largest > 0)) return result_fail(error, RESULT_BAD, "a ray without direction");
-  for (int c = 0; c < 3; ++c) d[c] /= largest; /* its square neither overflows nor underflows */
-  double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  for (int c = 0; c < 3; ++c) d[c] /= length;
   return RESULT_OK;
+}
+
+/* Makes it a unit vector; false where it is none. */
+static bool normalise(double d[3]) {
+  double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  if (!(square > 1e-200 && square < 1e200)) { /* which may have over- or underflown */
+    double largest = 0;
+    for (int c = 0; c < 3; ++c) largest = fmax(largest, fabs(d[c]));
+    if (!(largest > 0)) return false;
+    for (int c = 0; c < 3; ++c) d[c] /= largest;
+    square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  }
+  double scale = 1 / sqrt(square);
+  for (int c = 0; c < 3; ++c) d[c] *= scale;
+  return true;
+}
+
+enum result ray_check(struct ray *ray, double metres, struct error *error) {
+  enum result result = check_numbers(ray, metres, error);
+  if (result != RESULT_OK) return result;
+  for (int c = 0; c < 3; ++c) ray->origin[c] *= metres;
+  if (normalise(ray->direction)) return RESULT_OK;
+  return result_fail(error, RESULT_BAD, "a ray without direction");
 }
 
 /* Linear Rec. 709 from X, Y and Z. */

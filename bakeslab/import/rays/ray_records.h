@@ -18,7 +18,7 @@ enum result ray_records_read(struct ray_file *file, struct ray *rays, size_t mos
                              struct error *error);
 
 /* Puts a ray in place: scales its origin to metres, makes its direction a unit vector. Refuses what
- * is not finite, has no direction or a flux below 0, without a place. */
+ * is not finite, is farther or brighter than any lamp, or has no direction, without a place. */
 enum result ray_check(struct ray *ray, double metres, struct error *error);
 
 #endif

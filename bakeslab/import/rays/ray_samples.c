@@ -19,6 +19,7 @@
 #include "file/slab_json.h"
 #include "import/rays/ray_etendue.h"
 #include "import/rays/ray_held_out.h"
+#include "import/rays/ray_partition.h"
 #include "slab/slab_logluv.h"
 
 /* What the passes say of the luminance, on average. */
@@ -35,25 +36,18 @@ static enum result estimate(const struct ray_bins *bins, const double *etendue, 
   size_t count = slab_sample_count(&bins->page);
   float *counts = malloc(2 * count * sizeof *counts);
   if (!counts) return result_no_memory(error);
-  struct ray_cells cells = {.count = counts, .exposure = counts + count};
+  struct ray_cells cells = {.count = counts, .exposure = counts + count, .threads = bins->threads};
   memcpy(cells.samples, bins->page.samples, sizeof cells.samples);
   ray_bins_cells(bins, etendue, channel, true, counts, counts + count);
-  struct ray_posterior sum = {0};
-  enum result result = RESULT_OK;
-  for (int pass = 0; pass < RAY_PASSES && result == RESULT_OK; ++pass) {
-    struct ray_posterior one = {0};
-    result = ray_partition_add(&cells, pass, density, &one, error);
-    sum.variance += one.variance / RAY_PASSES;
-    sum.view_variance += one.view_variance / RAY_PASSES;
-  }
+  struct ray_posterior mean;
+  enum result result = ray_partition(&cells, density, &mean, error);
   double square = 0;
   for (size_t n = 0; n < count; ++n) {
-    density[n] /= RAY_PASSES;
     square += (double)cells.exposure[n] * density[n] * density[n];
     noise->square += etendue[n] * density[n] * density[n];
   }
-  noise->variance = fmax(sum.variance / square, 0);
-  noise->views = fmax(sum.view_variance, 0) / (double)count;
+  noise->variance = fmax(mean.variance / square, 0);
+  noise->views = fmax(mean.view_variance, 0) / (double)count;
   free(counts);
   return result;
 }

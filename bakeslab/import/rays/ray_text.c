@@ -13,10 +13,11 @@ static const char *significant(const char *line) {
   return *line == '#' ? "" : line;
 }
 
-/* The first line that says something begins with at least two numbers. */
+/* The first line that says something begins with at least two numbers, or all are comments. */
 static bool is_text(const char *head, size_t size) {
   char line[LINE_MOST];
   double numbers[2];
+  bool comments = false;
   for (size_t at = 0; at < size;) {
     const char *end = memchr(head + at, '\n', size - at);
     size_t length = end ? (size_t)(end - head) - at : size - at;
@@ -25,9 +26,10 @@ static bool is_text(const char *head, size_t size) {
     line[length] = 0;
     const char *says = significant(line);
     if (*says) return numbers_read(says, ' ', 2, numbers);
+    comments |= strchr(line, '#') != NULL;
     at += length + 1;
   }
-  return false;
+  return comments;
 }
 
 static enum result open_text(struct ray_file *file, struct error *error) {

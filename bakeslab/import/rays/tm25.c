@@ -144,7 +144,8 @@ static void set_columns(const struct header *header, struct ray_file *file) {
                                   .columns = at,
                                   .flux = file->lumens ? lumens : watts,
                                   .metres = 1e-3,
-                                  .promised = header->rays};
+                                  .promised = header->rays,
+                                  .promise = RAYS};
   if (file->coloured) records->x = tristimulus, records->z = tristimulus + 1;
 }
 

@@ -47,7 +47,11 @@ static enum result read_header(const unsigned char *data, struct ray_file *file,
   if (flux > 1 || (flux == 1 && rays == 2))
     return result_fail(error, RESULT_BAD, "byte %d: flux of type %u; must be 0 (W), or 1 (lm) %s",
                        FLUX_TYPE, flux, "without wavelengths");
-  records->promised = ray_records_word(data + RAYS, swapped);
+  int32_t count = (int32_t)ray_records_word(data + RAYS, swapped);
+  if (count < 0)
+    return result_fail(error, RESULT_BAD, "byte %d: its header promises %d rays", RAYS, count);
+  records->promised = (uint64_t)count;
+  records->promise = RAYS;
   records->columns = rays == 2 ? 8 : 7;
   records->flux = 6;
   records->metres = metres[unit];
