@@ -53,7 +53,8 @@ static enum result try_seed(enum known_kind kind, double rays, uint64_t seed, co
   struct slab page = known_page(kind, grid[0], grid[1]), slab;
   struct ray_estimate *estimate;
   struct error error;
-  enum result result = ray_estimate_new(&page, false, 0, 1, &estimate, &error);
+  enum result result =
+      ray_estimate_new(&page, &(struct ray_estimate_wish){.threads = 1}, &estimate, &error);
   if (result != RESULT_OK) return result;
   add_rays(estimate, kind, rays, &seed, sums);
   ray_estimate_whole(estimate, 1);

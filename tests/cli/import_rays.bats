@@ -101,6 +101,17 @@ holds() { awk "BEGIN { exit !($1) }" || { echo "not so: $1"; return 1; }; }
   "$BAKESLAB" info s.exr | grep -F '"source": "lamp.txt", "kind": "ray text"'
 }
 
+@test "--tolerance is of irradiance: the fewest samples for it, or what is missing" {
+  lambertian 20000 1 1 >lamp.txt
+  run --separate-stderr "$BAKESLAB" import lamp.txt -o s.exr --tolerance 0.1
+  [ "$status" -eq 0 ] && [[ $stderr != *tolerance* ]]
+  "$BAKESLAB" info s.exr | grep -F 'noise without blur' | grep -F 'irradiance errs by '
+  "$BAKESLAB" info s.exr | grep -E 'samples +4 x 4 x 16 x 16'
+  run --separate-stderr "$BAKESLAB" import lamp.txt -o s.exr --tolerance 1e-9 --uv 4 --st 8
+  [ "$status" -eq 0 ]
+  [[ $stderr == *"page 1: 4x4 x 8x8 samples err by "*" of irradiance, more than --tolerance 1e-09"* ]]
+}
+
 @test "what is no lamp is refused, with its line, and nothing is left" {
   printf '0 0 0 0 0 1 1\n0 0 0 0 0 0 1\n' >lamp.txt
   refuses 1 'lamp.txt: line 2: a ray without direction' -- "$BAKESLAB" import lamp.txt -o s.exr

@@ -46,7 +46,7 @@ struct import_story {
   double flux_in;        /* lm or W: what the file holds */
   double flux_out;       /* what the slabs give, as slab_flux_metric */
   double error;          /* relative RMS error of the samples, weighted as they shine */
-  char error_is[200];    /* how that was found: one sentence */
+  char error_is[300];    /* how that was found: one sentence */
   double sample_error;   /* RMS error of the samples' luminance, in their unit; NAN: not known */
   double flux_error;     /* relative error of the flux; NAN: not known */
   double missed;         /* part of the light that no page has; 0: not known */

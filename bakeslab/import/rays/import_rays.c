@@ -187,7 +187,12 @@ static enum result lay_pages(struct lamp *lamp, struct error *error) {
     }
     snprintf(page->radiance_unit, sizeof page->radiance_unit, "%s",
              in_lumens(lamp) ? "cd/m2" : "W/(sr m2)");
-    result = ray_estimate_new(page, lamp->coloured, wish->tolerance, lamp->threads,
+    result = ray_estimate_new(page,
+                              &(struct ray_estimate_wish){.coloured = lamp->coloured,
+                                                          .tolerance = wish->tolerance,
+                                                          .uv_given = wish->uv[0] > 0,
+                                                          .st_given = wish->st[0] > 0,
+                                                          .threads = lamp->threads},
                               &lamp->estimates[n], error);
   }
   return result_at(result, error, "%s", wish->files[0]);
@@ -231,14 +236,15 @@ static void tell_missed(const struct lamp *lamp) {
 
 /* What the pages say of their errors, together. */
 struct told {
-  double squares, error, held_out, samples, sample_error, flux, flux_error;
+  double squares, error, irradiance, held_out, samples, sample_error, flux, flux_error;
 };
 
 static void add_told(struct told *sum, const struct ray_estimate_told *page,
                      const struct slab *slab) {
   double samples = (double)slab_sample_count(slab), flux = ray_luminance(page->flux);
   sum->squares += page->square;
-  sum->error += page->square * page->error * page->error;
+  sum->error += page->square * page->noise * page->noise;
+  sum->irradiance = fmax(sum->irradiance, page->irradiance);
   sum->held_out += page->square * page->held_out * page->held_out;
   sum->samples += samples;
   sum->sample_error += samples * page->sample_noise * page->sample_noise;
@@ -261,13 +267,27 @@ static void tell_story(const struct lamp *lamp, const struct told *told,
            lamp->format == &ray_format_text
                ? ""
                : ", which are right-handed: here the lamp is its mirror image");
-  if (isfinite(held_out))
-    snprintf(story->error_is, sizeof story->error_is,
-             "RMS of the samples' error over that of the samples; rays held out show %.3g of it.",
-             held_out);
-  else
-    snprintf(story->error_is, sizeof story->error_is,
-             "RMS of the samples' error over that of the samples, by the number of rays.");
+  char held[64] = "", irradiance[120] = "";
+  if (isfinite(held_out)) snprintf(held, sizeof held, "; rays held out show %.3g of it", held_out);
+  if (told->irradiance > 0)
+    snprintf(irradiance, sizeof irradiance,
+             "; irradiance errs by %.2g, blur included, at %d apertures and beyond",
+             told->irradiance, RAY_ESTIMATE_APERTURES);
+  snprintf(story->error_is, sizeof story->error_is,
+           "RMS error of the samples, as means over their cells, over that of the samples (noise "
+           "without blur)%s%s.",
+           held, irradiance);
+}
+
+static void tell_tolerance(const struct lamp *lamp, int page,
+                           const struct ray_estimate_told *told) {
+  const struct import_wish *wish = lamp->wish;
+  if (told->irradiance > wish->tolerance && wish->tolerance > 0)
+    warnings_add(wish->notes,
+                 "page %d: %dx%d x %dx%d samples err by %.2g of irradiance, more than --tolerance "
+                 "%g: more need more rays, or --uv and --st",
+                 page + 1, told->samples[SLAB_U], told->samples[SLAB_V], told->samples[SLAB_S],
+                 told->samples[SLAB_T], told->irradiance, wish->tolerance);
 }
 
 static enum result finish(struct lamp *lamp, struct import_light *light, struct error *error) {
@@ -282,6 +302,7 @@ static enum result finish(struct lamp *lamp, struct import_light *light, struct 
     if (result != RESULT_OK) break;
     ++light->count;
     add_told(&told, &page, &light->slabs[n]);
+    tell_tolerance(lamp, n, &page);
     ray_estimate_free(lamp->estimates[n]);
     lamp->estimates[n] = NULL;
   }

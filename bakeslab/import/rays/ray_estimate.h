@@ -13,11 +13,18 @@
 
 struct ray_estimate; /* the rays of one page */
 
-/* For the geometry of `page` (slab.h; it is copied, and its samples are not read). With a
- * tolerance > 0 the samples are the finest that may be chosen, else those that will be given.
- * `coloured`: fluxes differ between red, green and blue. Any number of threads gives the same
- * bits. */
-enum result ray_estimate_new(const struct slab *page, bool coloured, double tolerance, int threads,
+enum { RAY_ESTIMATE_APERTURES = 4 }; /* a tolerance holds from here on (plane_width) */
+
+struct ray_estimate_wish {
+  bool coloured;           /* fluxes differ between red, green and blue */
+  double tolerance;        /* > 0: of irradiance, relative; chooses the samples */
+  bool uv_given, st_given; /* then these samples stay */
+  int threads;             /* at least 1; any number gives the same bits */
+};
+
+/* For the geometry of `page` (slab.h; it is copied, and its samples are not read), whose samples
+ * are those that will be given or, with a tolerance, the finest that may be chosen. */
+enum result ray_estimate_new(const struct slab *page, const struct ray_estimate_wish *wish,
                              struct ray_estimate **estimate, struct error *error);
 void ray_estimate_free(struct ray_estimate *estimate);
 
@@ -32,7 +39,7 @@ bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES
 void ray_estimate_whole(struct ray_estimate *estimate, double flux);
 
 /* The samples: fills slab->rgb of a new slab, which the caller frees, with the geometry of the page
- * and no JSON but "samples_are". With a tolerance > 0, the fewest samples for which told->error is
+ * and no JSON but "samples_are". With a tolerance, the fewest samples for which told->irradiance is
  * at most that, or those of the least error: halvings of the page's, down to 4 along an axis. No
  * ray at all gives a dark slab, and errors of 0. */
 enum result ray_estimate_finish(struct ray_estimate *estimate, struct slab *slab,

@@ -21,7 +21,7 @@ struct ray_posterior {
 
 /* Fills in the expected density of each cell, count over exposure, the mean of RAY_PASSES. The
  * trees' cuts are at multiples of powers of two, less some cells that depend on the pass. Refuses
- * as ray_partition_check. */
+ * as ray_boxes_check. */
 enum result ray_partition(const struct ray_cells *cells, double *density,
                           struct ray_posterior *posterior, struct error *error);
 

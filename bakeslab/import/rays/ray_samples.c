@@ -111,7 +111,7 @@ static enum result tell(const struct ray_bins *bins, const double *etendue, doub
   double share = fmin(bins->flux[y] / whole, 1);
   double by_rays = fmax(noise->variance - share * by_chance, 0);
   told->square = noise->square;
-  told->noise = told->error = sqrt(fmax(by_rays, held_out.least / noise->square));
+  told->noise = sqrt(fmax(by_rays, held_out.least / noise->square));
   told->held_out = sqrt(held_out.likely / noise->square);
   told->flux_noise = sqrt((1 - share) * by_chance);
   told->sample_noise = noise->variance > 0 ? told->noise * sqrt(noise->views / noise->variance) : 0;
@@ -135,7 +135,7 @@ enum result ray_samples(const struct ray_bins *bins, double whole, struct slab *
   enum result result = slab_copy_geometry(&bins->page, slab, error);
   if (result == RESULT_OK) result = slab_alloc(slab, error);
   if (result == RESULT_OK) result = slab_json_set(slab, "samples_are", "\"cell_means\"", error);
-  *told = (struct ray_estimate_told){.rays = bins->rays, .held_out = NAN, .blur = NAN};
+  *told = (struct ray_estimate_told){.rays = bins->rays, .held_out = NAN};
   memcpy(told->samples, bins->page.samples, sizeof told->samples);
   if (result == RESULT_OK && bins->rays > 0) {
     etendue = ray_etendue(slab);

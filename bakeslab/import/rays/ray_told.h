@@ -16,8 +16,9 @@ struct ray_estimate_told {
                               were held out show more */
   double held_out;   /* what of that rays held out show, of samples by three rays in four; NAN: it
                         is hidden in their own noise */
-  double blur;       /* error of interpolating means over cells; NAN where the samples were given */
-  double error;      /* noise and blur together */
+  double irradiance; /* error of irradiance, by noise and by interpolating means over cells, the RMS
+                        over the RMS of irradiance, where it is largest from RAY_ESTIMATE_APERTURES
+                        on (slab_accuracy.h); 0 without a tolerance */
   double bins;       /* noise of plain bins, the mean of each cell's own rays, for comparison */
   double square;     /* integral of the squared luminance over the etendue, to weight pages by */
   double flux_noise; /* standard error of the flux, relative: by which rays leave here, and which
