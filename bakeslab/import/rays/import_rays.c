@@ -200,20 +200,35 @@ static enum result lay_pages(struct lamp *lamp, struct error *error) {
 
 /* ---- Step 3 ---- */
 
+/* A ray on its page. */
+struct place {
+  int page; /* -1: it reaches none */
+  double abst[SLAB_AXES];
+};
+
+static void add(struct lamp *lamp, const struct ray *ray, const struct place *place) {
+  double luminance = lamp->factor * ray_luminance(ray->flux), flux[3];
+  if (!(luminance > 0)) return;
+  for (int c = 0; c < 3; ++c) flux[c] = lamp->factor * ray->flux[c];
+  if (place->page < 0) {
+    ++lamp->missed;
+    lamp->missed_flux += luminance;
+  } else if (!ray_estimate_add(lamp->estimates[place->page], place->abst, flux)) {
+    ++lamp->beyond;
+    lamp->beyond_flux += luminance;
+  }
+}
+
 static void carry(struct lamp *lamp, const struct ray *rays, size_t count) {
-  double abst[SLAB_AXES], flux[3];
-  for (size_t n = 0; n < count; ++n) {
-    double luminance = lamp->factor * ray_luminance(rays[n].flux);
-    if (!(luminance > 0)) continue;
-    int page = ray_pages_find(&lamp->pages, &rays[n], abst);
-    for (int c = 0; c < 3; ++c) flux[c] = lamp->factor * rays[n].flux[c];
-    if (page < 0) {
-      ++lamp->missed;
-      lamp->missed_flux += luminance;
-    } else if (!ray_estimate_add(lamp->estimates[page], abst, flux)) {
-      ++lamp->beyond;
-      lamp->beyond_flux += luminance;
+  enum { AHEAD = 64 };
+  struct place places[AHEAD];
+  for (size_t first = 0; first < count; first += AHEAD) {
+    size_t some = count - first < AHEAD ? count - first : AHEAD;
+    for (size_t n = 0; n < some; ++n) {
+      places[n].page = ray_pages_find(&lamp->pages, &rays[first + n], places[n].abst);
+      if (places[n].page >= 0) ray_estimate_expect(lamp->estimates[places[n].page], places[n].abst);
     }
+    for (size_t n = 0; n < some; ++n) add(lamp, &rays[first + n], &places[n]);
   }
 }
 

@@ -80,17 +80,31 @@ static bool find_flux(const struct ray_bins *bins, const double rgb[3], double f
   return flux[bins->luminance] > 0 && isfinite(flux[bins->luminance]);
 }
 
-bool ray_bins_add(struct ray_bins *bins, const double abst[SLAB_AXES], const double rgb[3]) {
-  size_t cell = 0, block = 0;
-  double flux[3];
+/* The numbers of a ray's cell and block; false where it passes outside. */
+static bool find_cell(const struct ray_bins *bins, const double abst[SLAB_AXES], size_t *cell,
+                      size_t *block) {
+  *cell = *block = 0;
   for (int axis = 0; axis < SLAB_AXES; ++axis) {
     int count = bins->page.samples[axis];
     double x = (abst[axis] - bins->low[axis]) * bins->per[axis];
     if (!(x >= 0 && x <= count)) return false;
     int at = x < count ? (int)x : count - 1;
-    cell += (size_t)at * bins->step[axis];
-    block = block * BLOCKS + bins->block[axis][at];
+    *cell += (size_t)at * bins->step[axis];
+    *block = *block * BLOCKS + bins->block[axis][at];
   }
+  return true;
+}
+
+void ray_bins_expect(const struct ray_bins *bins, const double abst[SLAB_AXES]) {
+  size_t cell, block;
+  if (find_cell(bins, abst, &cell, &block))
+    __builtin_prefetch(&bins->sums[cell * ((size_t)bins->channels + 1)], 1);
+}
+
+bool ray_bins_add(struct ray_bins *bins, const double abst[SLAB_AXES], const double rgb[3]) {
+  size_t cell, block;
+  double flux[3];
+  if (!find_cell(bins, abst, &cell, &block)) return false;
   if (!find_flux(bins, rgb, flux)) return false;
   double *sum = bins->sums + cell * ((size_t)bins->channels + 1);
   double *block_sum = bins->blocks + block * 2 * (size_t)bins->channels;

@@ -28,7 +28,8 @@ enum result ray_bins_new(const struct slab *page, bool coloured, struct ray_bins
                          struct error *error);
 void ray_bins_free(struct ray_bins *bins);
 
-/* As ray_estimate_add. */
+/* As ray_estimate_expect and ray_estimate_add. */
+void ray_bins_expect(const struct ray_bins *bins, const double abst[SLAB_AXES]);
 bool ray_bins_add(struct ray_bins *bins, const double abst[SLAB_AXES], const double rgb[3]);
 
 /* Whether each axis can be halved so often: its blocks (ray_bins.c) then stay whole. */

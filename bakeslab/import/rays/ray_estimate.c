@@ -47,6 +47,10 @@ void ray_estimate_free(struct ray_estimate *estimate) {
   free(estimate);
 }
 
+void ray_estimate_expect(const struct ray_estimate *estimate, const double abst[SLAB_AXES]) {
+  ray_bins_expect(&estimate->bins, abst);
+}
+
 bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES],
                       const double rgb[3]) {
   return ray_bins_add(&estimate->bins, abst, rgb);

@@ -34,6 +34,10 @@ void ray_estimate_free(struct ray_estimate *estimate);
 bool ray_estimate_add(struct ray_estimate *estimate, const double abst[SLAB_AXES],
                       const double rgb[3]);
 
+/* That a ray through (a, b, s, t) will be added soon: what that takes is fetched from memory
+ * meanwhile. Cells are too many for a cache, and to wait for each is most of what adding takes. */
+void ray_estimate_expect(const struct ray_estimate *estimate, const double abst[SLAB_AXES]);
+
 /* Luminous flux of all rays of the source, those that leave elsewhere included: which of them leave
  * here is chance then, and counts in the error. Without it the flux through the page is exact. */
 void ray_estimate_whole(struct ray_estimate *estimate, double flux);
