@@ -94,9 +94,13 @@ POV
   [[ $stderr == *"comes from beside the pages"* ]]
   "$BAKESLAB" bake waves.pov -o baked.exr -L "$lamps" -q --uv 8x4 --st 8x8 --rays 4 --window declared
   awk 'BEGIN { for (n = 0; n < 49; ++n) print (n%7 - 3.5), -6, (int(n/7) - 3), "0 1 0" }' >floor
-  "$RENDERSLAB" irradiance --light s.exr <floor >got
+  # directions finer than the cameras stand are interpolated, not left to be filled in
+  import transforms.json -o finer.exr "${where[@]}" "${window[@]}" --uv 8x4 --st 16x16
   "$RENDERSLAB" irradiance --light baked.exr <floor >want
-  paste got want | awk '{ off += ($2 - $5)^2; all += $5^2 } END { print sqrt(off/all); exit !(sqrt(off/all) < 0.06) }'
+  for slab in finer s; do
+    "$RENDERSLAB" irradiance --light $slab.exr <floor >got
+    paste got want | awk '{ off += ($2 - $5)^2; all += $5^2 } END { print sqrt(off/all); exit !(sqrt(off/all) < 0.06) }'
+  done
   "$BAKESLAB" info --json s.exr | jq -e '.pages[0].provenance.import
     | .kind == "posed pictures" and .error > 0 and .error < 0.2 and (.assumptions | test("filled in"))'
 }

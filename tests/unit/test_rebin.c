@@ -300,7 +300,8 @@ TEST(test_a_bulb_stays_sharp) {
   slab.rgb = NULL;
   lamp = bulb;
   take_pictures(&light, 200, 7);
-  assert_ok(focus_rebin(light.ray, light.count, true, &slab, &report, &error), &error);
+  assert_ok(focus_rebin(light.ray, light.count, (const int[]){0, 0}, &slab, &report, &error),
+            &error);
   assert_near(report.depth, 0.1, 0.013);
   assert_true(slab.samples[SLAB_S] > 11); /* finer than the cameras stand */
   assert_true(report.holes > 0 && report.holes < 0.2);
@@ -326,7 +327,8 @@ TEST(test_light_stays_within_the_opening) {
   slab.rgb = NULL;
   lamp = stopped_bulb;
   take_pictures(&light, 200, 7);
-  assert_ok(focus_rebin(light.ray, light.count, true, &slab, &report, &error), &error);
+  assert_ok(focus_rebin(light.ray, light.count, (const int[]){0, 0}, &slab, &report, &error),
+            &error);
   assert_near(report.depth, 0.1, 0.026);
   for (int k = 0; k < slab.samples[SLAB_S]; ++k)
     for (int l = 0; l < slab.samples[SLAB_T]; ++l)

@@ -117,12 +117,12 @@ static enum result find_depth(struct search *search, struct error *error) {
   return result;
 }
 
-static void choose_directions(double depth, struct slab *slab) {
+static void choose_directions(double depth, const int st[2], struct slab *slab) {
   for (int k = 0; k < 2; ++k) {
     double width = slab->st_window[2 * k + 1] - slab->st_window[2 * k];
     double wanted = ceil(width * depth / slab_spacing(slab, SLAB_U + k));
     int *samples = &slab->samples[SLAB_S + k];
-    *samples = (int)fmax(*samples, fmin(MOST_ST, wanted));
+    *samples = st[k] ? st[k] : (int)fmax(*samples, fmin(MOST_ST, wanted));
   }
 }
 
@@ -202,7 +202,7 @@ static void compare_edges(const struct slab *plane, const struct search *search,
 
 /* Steps 3 and 4. */
 static enum result make_slab(const struct search *search, size_t edges, struct opening *opening,
-                             bool finer, struct slab *slab, struct focus_report *report,
+                             const int st[2], struct slab *slab, struct focus_report *report,
                              struct error *error) {
   struct slab plane;
   bool *known = NULL;
@@ -218,7 +218,7 @@ static enum result make_slab(const struct search *search, size_t edges, struct o
   if (result == RESULT_OK)
     result = rebin(search->carried, search->count, &plane, known, &report->rebin, error);
   if (result == RESULT_OK) compare_edges(&plane, search, edges, opening);
-  if (result == RESULT_OK && finer) choose_directions(depth, slab);
+  choose_directions(depth, st, slab);
   if (result == RESULT_OK) result = slab_alloc(slab, error);
   if (result == RESULT_OK) fill(&plane, known, opening, slab, report);
   free(plane.rgb);
@@ -226,8 +226,8 @@ static enum result make_slab(const struct search *search, size_t edges, struct o
   return result;
 }
 
-enum result focus_rebin(const struct rebin_ray *rays, size_t count, bool finer, struct slab *slab,
-                        struct focus_report *report, struct error *error) {
+enum result focus_rebin(const struct rebin_ray *rays, size_t count, const int st[2],
+                        struct slab *slab, struct focus_report *report, struct error *error) {
   struct opening opening = {0};
   struct rebin_ray *room = calloc(2 * count + 1, sizeof *room);
   struct search search = {rays, count, slab, room ? room + count : NULL, 0, NAN};
@@ -236,7 +236,7 @@ enum result focus_rebin(const struct rebin_ray *rays, size_t count, bool finer, 
   if (result == RESULT_OK) result = opening_find(rays, count, slab, &opening, error);
   if (result == RESULT_OK) edges = sort_rays(&search, &opening, room);
   if (result == RESULT_OK) result = find_depth(&search, error);
-  if (result == RESULT_OK) result = make_slab(&search, edges, &opening, finer, slab, report, error);
+  if (result == RESULT_OK) result = make_slab(&search, edges, &opening, st, slab, report, error);
   opening_free(&opening);
   free(room);
   return result;

@@ -16,10 +16,10 @@ struct focus_report {
 };
 
 /* Rebins the rays at the depth behind the aperture at which the sources that are held out are told
- * best, and makes the slab of that: its geometry and samples are given, and it is not allocated.
- * Where `finer`, its directions become as many as the depth asks for. Places of rays are those in
- * the given slab. */
-enum result focus_rebin(const struct rebin_ray *rays, size_t count, bool finer, struct slab *slab,
-                        struct focus_report *report, struct error *error);
+ * best, and makes the slab of that: its geometry and samples are given, as many directions as the
+ * sources tell, and it is not allocated. Its directions become st[], or where that is 0 as many as
+ * the depth asks for. Places of rays are those in the given slab. */
+enum result focus_rebin(const struct rebin_ray *rays, size_t count, const int st[2],
+                        struct slab *slab, struct focus_report *report, struct error *error);
 
 #endif

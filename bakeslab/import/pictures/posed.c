@@ -2,8 +2,10 @@
  *
  * 1. Pages are laid at the apertures. Where no window is given, it holds all directions in which
  *    the cameras stand, as seen from the page's middle, up to slopes of 2.
- * 2. Samples, where they were not asked for: 16 positions a side, and as many directions as there
- *    are cameras within the window: finer ones would be filled in, not measured.
+ * 2. Positions, where they were not asked for, are as many as pixels of the pictures lie across the
+ *    page, but 16 to 32: what is a few pixels wide, as a bulb, blurs where they are fewer.
+ *    Directions are found at as many as there are cameras within the window: more would be filled
+ *    in, not measured; those of the slab are interpolated.
  * 3. Pictures are read one after the other, and their pixels become rays (posed_rays.h).
  * 4. Each page's rays are rebinned, at the depth where the lamp shines (focus.h). */
 #include "import/pictures/posed.h"
@@ -19,7 +21,7 @@
 #include "import/pictures/light_picture.h"
 #include "import/pictures/posed_rays.h"
 
-enum { DEFAULT_UV = 16, LEAST_ST = 4, MOST_ST = 64 };
+enum { LEAST_UV = 16, MOST_UV = 32, LEAST_ST = 4, MOST_ST = 64 };
 static const double widest = 2; /* slope */
 
 struct work {
@@ -30,7 +32,59 @@ struct work {
   struct ray_pages pages;
   struct posed_rays rays;
   struct slab_images images;
+  int first[2]; /* size of the first picture, once it was read */
 };
+
+/* ---- Pictures ---- */
+
+/* A picture's path: beside the file, unless it is absolute. To be freed. */
+static char *find_picture(const struct work *work, const struct pose *pose) {
+  const char *slash = strrchr(work->path, '/');
+  if (pose->file[0] == '/' || !slash) return strdup(pose->file);
+  char *folder = strndup(work->path, (size_t)(slash - work->path));
+  char *path = folder ? files_join(folder, pose->file) : NULL;
+  free(folder);
+  return path;
+}
+
+/* Pictures are as large as their poses say, or as the first. */
+static enum result check_size(const struct pose *pose, const struct picture *picture, int first[2],
+                              const char *path, struct error *error) {
+  double width = pose->width > 0 ? pose->width : first[0];
+  double height = pose->height > 0 ? pose->height : first[1];
+  if (first[0] == 0) {
+    first[0] = picture->width;
+    first[1] = picture->height;
+  }
+  if ((width == 0 || width == picture->width) && (height == 0 || height == picture->height))
+    return RESULT_OK;
+  return result_fail(error, RESULT_BAD, "%s: is %d x %d pixels, not %g x %g as %s", path,
+                     picture->width, picture->height, width > 0 ? width : picture->width,
+                     height > 0 ? height : picture->height,
+                     pose->width > 0 || pose->height > 0 ? "its pose says" : "the first picture");
+}
+
+/* `picture` is to be freed in any case. */
+static enum result read_picture(struct work *work, int n, struct picture *picture,
+                                struct error *error) {
+  const struct import_wish *wish = work->wish;
+  const struct pose *pose = &work->poses.pose[n];
+  char *path = find_picture(work, pose);
+  *picture = (struct picture){0};
+  if (!path) return result_no_memory(error);
+  double exposure = wish->exposure > 0 ? wish->exposure : 1;
+  enum result result = light_picture_read(&work->images, path, exposure, picture, error);
+  if (result == RESULT_OK) result = check_size(pose, picture, work->first, path, error);
+  free(path);
+  return result_at(result, error, "%s: frame %d", work->path, n + 1);
+}
+
+static enum result look_at_first(struct work *work, struct error *error) {
+  struct picture picture;
+  enum result result = read_picture(work, 0, &picture, error);
+  picture_free(&picture);
+  return result;
+}
 
 /* ---- Steps 1 and 2 ---- */
 
@@ -74,6 +128,23 @@ static int count_within(const struct work *work, const struct ray_page *page) {
   return count;
 }
 
+/* Pixels per lamp unit at a page, square to the line of sight: the mean of the cameras before it.
+ */
+static double find_pixels(const struct work *work, const struct ray_page *page) {
+  double sum = 0, slope[2];
+  int count = 0;
+  for (int n = 0; n < work->poses.count; ++n) {
+    struct pose pose = work->poses.pose[n];
+    double square = 0;
+    if (!find_slopes(page, &pose, slope)) continue;
+    poses_complete(&pose, work->first[0], work->first[1]);
+    for (int c = 0; c < 3; ++c) square += pow(pose.origin[c] - page->geometry.center[c], 2);
+    sum += pose.focal[0] / sqrt(square);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 static enum result lay_page(struct work *work, int n, struct error *error) {
   const struct import_wish *wish = work->wish;
   struct ray_page *page = &work->pages.page[n];
@@ -84,10 +155,13 @@ static enum result lay_page(struct work *work, int n, struct error *error) {
     memcpy(slab->st_window, wish->window, sizeof slab->st_window);
   else
     result = choose_window(work, page, error);
+  double pixels = find_pixels(work, page);
   int side = (int)fmin(MOST_ST, fmax(LEAST_ST, round(sqrt(count_within(work, page)))));
   for (int k = 0; k < 2; ++k) {
-    slab->samples[SLAB_U + k] = wish->uv[k] ? wish->uv[k] : DEFAULT_UV;
-    slab->samples[SLAB_S + k] = wish->st[k] ? wish->st[k] : side;
+    double across = round(2 * page->half[k] * pixels);
+    slab->samples[SLAB_U + k] =
+        wish->uv[k] ? wish->uv[k] : (int)fmin(MOST_UV, fmax(LEAST_UV, across));
+    slab->samples[SLAB_S + k] = wish->st[k] && wish->st[k] < side ? wish->st[k] : side;
   }
   if (result == RESULT_OK) result = slab_check(slab, error);
   return result_at(result, error, "page %d", n + 1);
@@ -129,56 +203,24 @@ static enum result read_poses(struct work *work, struct error *error) {
   return result_at(result, error, "%s", work->path);
 }
 
-/* A picture's path: beside the file, unless it is absolute. To be freed. */
-static char *find_picture(const struct work *work, const struct pose *pose) {
-  const char *slash = strrchr(work->path, '/');
-  if (pose->file[0] == '/' || !slash) return strdup(pose->file);
-  char *folder = strndup(work->path, (size_t)(slash - work->path));
-  char *path = folder ? files_join(folder, pose->file) : NULL;
-  free(folder);
-  return path;
-}
-
-static enum result check_size(const struct pose *pose, const struct picture *picture, int first[2],
-                              const char *path, struct error *error) {
-  double width = pose->width > 0 ? pose->width : first[0];
-  double height = pose->height > 0 ? pose->height : first[1];
-  if (first[0] == 0) {
-    first[0] = picture->width;
-    first[1] = picture->height;
-  }
-  if ((width == 0 || width == picture->width) && (height == 0 || height == picture->height))
-    return RESULT_OK;
-  return result_fail(error, RESULT_BAD, "%s: is %d x %d pixels, not %g x %g as %s", path,
-                     picture->width, picture->height, width > 0 ? width : picture->width,
-                     height > 0 ? height : picture->height,
-                     pose->width > 0 || pose->height > 0 ? "its pose says" : "the first picture");
-}
-
-static enum result add_picture(struct work *work, int n, int first[2], struct error *error) {
-  const struct import_wish *wish = work->wish;
+static enum result add_picture(struct work *work, int n, struct error *error) {
   const struct pose *pose = &work->poses.pose[n];
-  struct picture picture = {0};
-  char *path = find_picture(work, pose);
-  if (!path) return result_no_memory(error);
-  double exposure = wish->exposure > 0 ? wish->exposure : 1;
-  enum result result = light_picture_read(&work->images, path, exposure, &picture, error);
-  if (result == RESULT_OK) result = check_size(pose, &picture, first, path, error);
+  struct picture picture;
+  enum result result = read_picture(work, n, &picture, error);
   if (result == RESULT_OK) {
-    result = posed_rays_add(&work->rays, pose, &picture, wish->vignetting, (uint32_t)n, error);
-    result_at(result, error, "%s", path);
+    result =
+        posed_rays_add(&work->rays, pose, &picture, work->wish->vignetting, (uint32_t)n, error);
+    result_at(result, error, "%s: frame %d: %s", work->path, n + 1, pose->file);
   }
   picture_free(&picture);
-  free(path);
-  return result_at(result, error, "%s: frame %d", work->path, n + 1);
+  return result;
 }
 
 static enum result add_pictures(struct work *work, struct error *error) {
-  int first[2] = {0, 0};
   enum result result = RESULT_OK;
   work->rays.pages = &work->pages;
   for (int n = 0; n < work->poses.count && result == RESULT_OK; ++n)
-    result = add_picture(work, n, first, error);
+    result = add_picture(work, n, error);
   return result;
 }
 
@@ -202,7 +244,6 @@ static double mean_square(const struct slab *slab) {
 static enum result add_page(struct work *work, int n, struct slab *slab, struct told *told,
                             struct error *error) {
   const struct import_wish *wish = work->wish;
-  bool finer = wish->st[0] == 0;
   struct focus_report report;
   double rgb[3];
   if (work->rays.page[n].count == 0)
@@ -212,8 +253,8 @@ static enum result add_page(struct work *work, int n, struct slab *slab, struct 
                        work->path, n + 1);
   enum result result = slab_copy_geometry(&work->pages.page[n].geometry, slab, error);
   if (result == RESULT_OK)
-    result =
-        focus_rebin(work->rays.page[n].ray, work->rays.page[n].count, finer, slab, &report, error);
+    result = focus_rebin(work->rays.page[n].ray, work->rays.page[n].count, wish->st, slab, &report,
+                         error);
   if (result == RESULT_OK) result = slab_flux_metric(slab, rgb, error);
   if (result != RESULT_OK) return result;
   double flux = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
@@ -297,6 +338,7 @@ enum result posed_slabs(const struct import_wish *wish, struct import_light *lig
   work->path = wish->files[0];
   work->metres = wish->metres > 0 ? wish->metres : 1;
   enum result result = read_poses(work, error);
+  if (result == RESULT_OK) result = look_at_first(work, error);
   if (result == RESULT_OK) result = lay_pages(work, error);
   if (result == RESULT_OK) result = add_pictures(work, error);
   if (result == RESULT_OK) result = fill_pages(work, light, error);
