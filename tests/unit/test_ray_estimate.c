@@ -331,8 +331,6 @@ TEST(test_tolerance) {
   double few_error = irradiance_error(&few, truth_of(KNOWN_LOBE, all)->factor);
   struct slab best = take(shoot(KNOWN_LOBE, 10 * RAYS, 9, false, 1e-4, one_each, &all), &tight);
   double best_error = irradiance_error(&best, truth_of(KNOWN_LOBE, all)->factor);
-  print_message("told %g %g, true %g %g\n", loose.irradiance, tight.irradiance, few_error,
-                best_error);
   assert_true(slab_sample_count(&few) < slab_sample_count(&best));
   assert_true(loose.irradiance <= 0.1 && tight.irradiance < loose.irradiance);
   assert_true(tight.irradiance > 1e-4 && few_error < 0.1);
