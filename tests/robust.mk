@@ -54,7 +54,7 @@ KILLS ?= 10
 FAULTS_PROGRAMS := $(B)/tests/faults/faults $(B)/tests/faults/fake_povray $(B)/tests/faults/nomem.so
 TEST_NAMES += faults/bakeslab faults/renderslab
 
-$(B)/tests/faults/faults: $(B)/tests/faults/faults.o $(B)/tests/faults/supervise.o $(B)/libbake.a $(B)/libslab.a
+$(B)/tests/faults/faults: $(B)/tests/faults/faults.o $(B)/tests/faults/left.o $(B)/tests/faults/supervise.o $(B)/libbake.a $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 

@@ -1,9 +1,11 @@
 #include "base/files.h"
 
+#include <dirent.h>
 #include <errno.h>
-#include <ftw.h>
+#include <fcntl.h>
 #include <libgen.h>
 #include <limits.h>
+#include <stdalign.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,12 +81,30 @@ enum result files_make_directory(const char *path, struct error *error) {
   return RESULT_OK;
 }
 
-static int remove_one(const char *path, const struct stat *status, int type, struct FTW *where) {
-  (void)status, (void)type, (void)where;
-  remove(path);
-  return 0;
+/* Empties an open folder, by what the system's call gives: nftw and readdir need memory, which may
+ * be what is missing. Entries move up as others go: it begins again until none goes. */
+static void remove_below(int folder) {
+  alignas(struct dirent64) char room[4096];
+  for (bool gone = true; gone;) {
+    ssize_t size;
+    gone = false;
+    lseek(folder, 0, SEEK_SET);
+    while ((size = getdents64(folder, room, sizeof room)) > 0)
+      for (const char *at = room; at < room + size;) {
+        const struct dirent64 *entry = (const void *)at;
+        const char *name = entry->d_name;
+        at += entry->d_reclen;
+        if (!strcmp(name, ".") || !strcmp(name, "..")) continue;
+        int below = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        if (below >= 0) remove_below(below);
+        gone |= unlinkat(folder, name, below < 0 ? 0 : AT_REMOVEDIR) == 0;
+      }
+  }
+  close(folder);
 }
 
 void files_remove_tree(const char *path) {
-  nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+  int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder >= 0) remove_below(folder);
+  (void)!remove(path);
 }

@@ -23,7 +23,8 @@ enum result files_write(const char *directory, const char *name, const char *tex
 /* Makes a folder; one that is there already is fine. */
 enum result files_make_directory(const char *path, struct error *error);
 
-/* Removes a folder and all that is in it, without following links. Failures are ignored. */
+/* Removes a folder and all that is in it, without following links. Failures are ignored.
+ * Needs no memory. */
 void files_remove_tree(const char *path);
 
 #endif

@@ -8,7 +8,6 @@
  * FAULTS is how many n are tried for each command and kind of fault, spread evenly (4); 0 tries
  * all. Commands that take long get fewer, or none.
  * BAKESLAB, RENDERSLAB and TOOLS (of this folder) are needed. */
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,10 +15,11 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include "base/files.h"
+#include "export/export_folder.h"
 #include "faults_commands.h"
+#include "left.h"
 #include "supervise.h"
 
 enum kind {
@@ -42,18 +42,6 @@ static const char *const kind_names[KINDS] = {"none",
 
 enum { MOST_WORDS = 40, SECONDS = 120 };
 
-enum { MOST_FILES = 16, NAME_SIZE = 32 };
-
-/* What a run has left in its folder and on stdout. */
-struct left {
-  uint64_t output;
-  int count; /* of files */
-  struct {
-    char name[NAME_SIZE];
-    uint64_t hash;
-  } files[MOST_FILES];
-};
-
 struct run {
   int status; /* exit status, -1 for a signal */
   long calls; /* that could fail */
@@ -62,7 +50,8 @@ struct run {
   int lines;       /* on stderr */
 };
 
-static const char old_content[] = "old content\n";
+/* A folder is one that bakeslab export may replace. */
+static const char old_content[] = "old content \"bakeslab \" \"export\"\n";
 static char top[64]; /* of the test; holds in/, run/, out, err, calls */
 static long faults_tried, faults_told, faults_of_jansson;
 
@@ -70,70 +59,6 @@ static void must(bool done, const char *what) {
   if (done) return;
   printf("Bail out! %s: %s\n", what, strerror(errno));
   exit(1);
-}
-
-/* Leaves out what numbers are made of. */
-static size_t without_numbers(char *text, size_t size) {
-  size_t kept = 0;
-  for (size_t k = 0; k < size; ++k)
-    if (!strchr("0123456789.e+-", text[k])) text[kept++] = text[k];
-  return kept;
-}
-
-/* `timed`: of what is no number; of a plot, whose ticks depend on the times, of its end. */
-static uint64_t hash_file(const char *path, bool timed) {
-  enum { PLOT_END = 7 }; /* "</svg>" */
-  char block[1 << 16];
-  size_t n;
-  uint64_t hash = 0;
-  FILE *file = fopen(path, "rbe");
-  if (!file) return 0;
-  if (timed && strstr(path, ".svg")) fseek(file, -PLOT_END, SEEK_END);
-  while ((n = fread(block, 1, sizeof block, file)) > 0)
-    hash = XXH64(block, timed ? without_numbers(block, n) : n, hash);
-  fclose(file);
-  return hash;
-}
-
-/* Folders are left out, which only the bake's store is. */
-static struct left look(bool timed) {
-  struct left left = {.output = hash_file("../out", false)};
-  DIR *list = opendir(".");
-  must(list, top);
-  for (struct dirent *entry; (entry = readdir(list));) {
-    if (entry->d_type != DT_REG) continue;
-    must(left.count < MOST_FILES && strlen(entry->d_name) < NAME_SIZE, entry->d_name);
-    strcpy(left.files[left.count].name, entry->d_name);
-    left.files[left.count++].hash = hash_file(entry->d_name, timed);
-  }
-  closedir(list);
-  return left;
-}
-
-/* Whether the other has the k-th file of one too, alike. */
-static bool has(const struct left *other, const struct left *one, int k) {
-  for (int n = 0; n < other->count; ++n)
-    if (!strcmp(other->files[n].name, one->files[k].name))
-      return other->files[n].hash == one->files[k].hash;
-  return false;
-}
-
-static bool same(const struct left *a, const struct left *b) {
-  int alike = 0;
-  for (int k = 0; k < a->count; ++k) alike += has(b, a, k);
-  return alike == a->count && a->count == b->count;
-}
-
-/* Each file is old or new, never in between; those that belong together all the same. */
-static bool is_old_or_new(const struct left *now, const struct left *before,
-                          const struct left *whole, bool together) {
-  int old = 0, new = 0;
-  for (int k = 0; k < now->count; ++k) {
-    old += has(before, now, k);
-    new += !has(before, now, k) && has(whole, now, k);
-  }
-  bool all = old + new == now->count && now->count >= before->count;
-  return all && (!together || !old || !new);
 }
 
 /* The command's words; programs by the environment's paths. */
@@ -191,10 +116,21 @@ static struct run run_once(const struct faults_command *command, enum kind kind,
   unlink("../calls");
   struct outcome outcome = supervise(&program);
   unsetenv("LD_PRELOAD");
-  struct run run = {.calls = memory ? told_calls() : outcome.calls, .left = look(command->timed)};
+  struct run run = {.calls = memory ? told_calls() : outcome.calls,
+                    .left = left_look("../out", command->timed)};
   run.status = WIFEXITED(outcome.status) && !outcome.timeout ? WEXITSTATUS(outcome.status) : -1;
   read_lines(&run);
   return run;
+}
+
+static void make_old(const char *name) {
+  const char *folder = ".", *file = name;
+  if (name[strlen(name) - 1] == '/') {
+    must(mkdir(name, 0777) == 0, name);
+    folder = name;
+    file = export_folder_mark;
+  }
+  must(files_write(folder, file, old_content, NULL) == RESULT_OK, name);
 }
 
 /* An empty run folder; with old files of the names of the outputs, or without. */
@@ -204,8 +140,7 @@ static void clear(const struct faults_command *command, bool old) {
   files_remove_tree("run");
   must(mkdir("run", 0777) == 0 && chdir("run") == 0, "run");
   snprintf(names, sizeof names, "%s", command->outputs ? command->outputs : "");
-  for (char *name = strtok(names, " "); old && name; name = strtok(NULL, " "))
-    must(files_write(".", name, old_content, NULL) == RESULT_OK, name);
+  for (char *name = strtok(names, " "); old && name; name = strtok(NULL, " ")) make_old(name);
 }
 
 /* jansson 2.14 aborts by itself where the buffer of a word cannot grow: an assertion in load.c,
@@ -220,15 +155,15 @@ static const char *judge(const struct faults_command *command, const struct run 
                          const struct left *before, const struct run *whole) {
   char name[16];
   snprintf(name, sizeof name, "%.*s: ", (int)strcspn(command->line, " "), command->line);
-  if (is_jansson(run) && is_old_or_new(&run->left, before, &whole->left, false)) return NULL;
+  if (is_jansson(run) && left_is_old_or_new(&run->left, before, &whole->left, false)) return NULL;
   if (run->status < 0) return "crashed or did not end";
   if (run->status == 0) {
-    if (!same(&run->left, &whole->left)) return "succeeded with other files";
+    if (!left_is_same(&run->left, &whole->left)) return "succeeded with other files";
     return run->left.output == whole->left.output ? NULL : "succeeded with another output";
   }
   if (run->status != (command->fails_with ? command->fails_with : 1))
     return "has another exit status";
-  if (!is_old_or_new(&run->left, before, &whole->left, command->together))
+  if (!left_is_old_or_new(&run->left, before, &whole->left, command->together))
     return "failed, and left files that are neither old nor whole";
   if (run->lines != 1) return "did not say one line";
   return strncmp(run->line, name, strlen(name)) ? "did not begin with its name" : NULL;
@@ -237,14 +172,15 @@ static const char *judge(const struct faults_command *command, const struct run 
 /* What was interrupted goes on. */
 static const char *go_on(const struct faults_command *command, const struct run *whole) {
   struct run run = run_once(command, NO_FAULT, 0);
-  if (run.status != 0 || !same(&run.left, &whole->left)) return "does not go on to the same slab";
+  if (run.status != 0 || !left_is_same(&run.left, &whole->left))
+    return "does not go on to the same slab";
   return NULL;
 }
 
 static bool try_fault(const struct faults_command *command, enum kind kind, long number,
                       const struct run *whole) {
   clear(command, number % 2 != 0);
-  struct left before = look(command->timed);
+  struct left before = left_look("../out", command->timed);
   struct run run = run_once(command, kind, number);
   const char *wrong = judge(command, &run, &before, whole);
   ++faults_tried;

@@ -10,7 +10,7 @@ struct faults_command {
   const char *name;
   const char *line;    /* words between single blanks */
   const char *in;      /* stdin, or NULL */
-  const char *outputs; /* files that it writes, or NULL */
+  const char *outputs; /* files that it writes, and folders with a slash behind, or NULL */
   int fails_with;      /* exit status; 0: 1 */
   bool goes_on;        /* keeps finished work where it fails */
   int cost;            /* one in so many faults is tried; 0: all */
@@ -58,6 +58,26 @@ static const struct faults_command faults_commands[] = {
      .outputs = "x.tif",
      .cost = 8,
      .children = true},
+    {.name = "export-radiance",
+     .line = "bakeslab export ../in/little.tif -q -o x --as radiance --name lamp --force",
+     .outputs = "x/",
+     .cost = 4},
+    {.name = "export-mitsuba",
+     .line = "bakeslab export ../in/little.tif -q -o x --as mitsuba --name lamp --force",
+     .outputs = "x/",
+     .cost = 4},
+    {.name = "export-cycles",
+     .line = "bakeslab export ../in/little.tif -q -o x --as cycles --name lamp --force",
+     .outputs = "x/",
+     .cost = 8},
+    {.name = "export-ies",
+     .line = "bakeslab export ../in/little.tif -q -o x.ies",
+     .outputs = "x.ies",
+     .cost = 4},
+    {.name = "export-rays",
+     .line = "bakeslab export ../in/little.tif -q -o x.tm25ray --rays 100",
+     .outputs = "x.tm25ray",
+     .cost = 4},
     {.name = "convert-stdout", .line = "bakeslab convert ../in/little.tif -o -"},
     {.name = "arguments", .line = "bakeslab @../in/arguments", .outputs = "x.tif"},
     {.name = "include-sheet",
