@@ -8,6 +8,8 @@
 set -euo pipefail
 # shellcheck source=tests/tradeoff/tradeoff.bash disable=SC2154
 . "$(dirname "$0")/../tradeoff/tradeoff.bash"
+# shellcheck source=tests/peers/engines.bash disable=SC2154
+. "$root/tests/peers/engines.bash"
 peers=$root/tests/peers
 
 # ---- What is tried. Rays a pixel of light tracing and path tracing, each RUNS times.
@@ -32,46 +34,22 @@ includes=(16 8)
 # times too bright.
 ways=(light path photons lamp renderslab include)
 
-python=$BUILD/venv/bin/python
-llvm=$BUILD/debian/usr/lib/x86_64-linux-gnu/libLLVM-19.so
+python=$mitsuba_python
 mkdir -p rows
 
 # absent WAY REASON: a row that says so.
 absent() { printf '%s\n' "$2" >"rows/$1.absent"; }
 
-# Mitsuba from PyPI. Its fast variants compile by LLVM, newer than the default of Debian 12; the
-# plain variant stands in. Radiance from Debian, where it has it, else as PyPI has it.
 set_up() {
-  local radiance
-  if [ ! -x "$python" ]; then
-    python3 -m venv venv || {
-      echo 'run.sh: python3 -m venv does not work here; the Debian package is python3-venv' >&2
-      exit 1
-    }
-  fi
-  [ -f venv/installed ] || {
-    venv/bin/pip install -q mitsuba numpy || {
-      echo 'run.sh: pip cannot install mitsuba, whose light tracing is the truth here' >&2
-      exit 1
-    }
-    venv/bin/pip install -q pyradiance || true
-    touch venv/installed
+  engine_mitsuba mono || {
+    echo 'run.sh: pip cannot install mitsuba, whose light tracing is the truth here' >&2
+    exit 1
   }
-  [ -e "$llvm" ] || {
-    mkdir -p debian
-    (cd debian && apt-get -q download libllvm19 && dpkg -x libllvm19_*.deb .) >debian.log 2>&1 || true
-  }
-  export MITSUBA_VARIANT=scalar_rgb
-  [ ! -e "$llvm" ] || export MITSUBA_VARIANT=llvm_ad_mono DRJIT_LIBLLVM_PATH=$llvm
-  radiance=$(echo "$BUILD"/venv/lib/python3*/site-packages/pyradiance)
-  if ! command -v rpict >/dev/null && [ -d "$radiance/bin" ]; then
-    export PATH=$radiance/bin:$PATH RAYPATH=.:$radiance/lib
-  fi
-  command -v rpict >/dev/null || for way in photons mkillum; do
+  engine_radiance || for way in photons mkillum; do
     absent "$way" 'Radiance is neither in this Debian nor as pyradiance on PyPI'
   done
   [ -f versions ] || {
-    venv/bin/pip list 2>/dev/null | awk '/^(mitsuba|pyradiance)/ { print $1, $2 }'
+    "$python" -m pip list 2>/dev/null | awk '/^(mitsuba|pyradiance)/ { print $1, $2 }'
     echo "Mitsuba's variant $MITSUBA_VARIANT"
     rpict -version 2>/dev/null | awk 'NR == 1 { print "rpict:", $0 }'
     povray --version 2>&1 | grep -om 1 'POV-Ray [0-9.]*'
