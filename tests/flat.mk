@@ -105,13 +105,13 @@ tradeoff: $(BIN) $(BENCH_FLOOR) $(TRADEOFF_LAMPS) ## measure what accuracy costs
 .PHONY: peers
 peers: $(BIN) ## measure beside Mitsuba, Radiance and POV-Ray what a picture of two lamps costs
 	@mkdir -p build/peers
-	@$(TEST_ENV) BUILD=$(abspath build/peers) ENGINES=$(abspath build/peers) tests/peers/run.sh
+	@$(TEST_ENV) BUILD=$(abspath build/peers) ENGINES=$(ENGINES) tests/peers/run.sh
 
 # In the same scratch environment.
 .PHONY: elsewhere
 elsewhere: $(BIN) ## light a room by one slab in POV-Ray, renderslab, Cycles, Radiance and Mitsuba, and compare the pictures
 	@mkdir -p build/elsewhere
-	@$(TEST_ENV) BUILD=$(abspath build/elsewhere) ENGINES=$(abspath build/peers) tests/elsewhere/run.sh
+	@$(TEST_ENV) BUILD=$(abspath build/elsewhere) ENGINES=$(ENGINES) tests/elsewhere/run.sh
 
 # In the same scratch environment.
 .PHONY: engines

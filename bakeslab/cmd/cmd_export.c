@@ -103,6 +103,12 @@ static void check_arguments(struct arguments *arguments, struct argp_state *stat
     argp_error(state, "--plain: is for --as mitsuba only");
   if (arguments->kind && arguments->wish.blend && strcmp(arguments->kind->name, "cycles") != 0)
     argp_error(state, "--blend: is for --as cycles only");
+  bool rays = arguments->kind &&
+              (!strcmp(arguments->kind->name, "tm25ray") || !strcmp(arguments->kind->name, "rays"));
+  if (arguments->kind && !rays && (arguments->wish.rays || arguments->wish.seed >= 0))
+    argp_error(state, "--rays, --seed: are for ray files only");
+  if (!arguments->wish.rays) arguments->wish.rays = 100000;
+  if (arguments->wish.seed < 0) arguments->wish.seed = 1;
 }
 
 static error_t parse_option(int key, char *text, struct argp_state *state) {
@@ -156,6 +162,6 @@ static enum result run(void *input, struct error *error) {
 int cmd_export(int argc, char **argv) {
   static const struct argp argp = {
       options, parse_option, "SLAB -o OUT [--as KIND]", doc, cli_options, NULL, NULL};
-  struct arguments arguments = {.wish = {.tolerance = 0.01, .rays = 100000, .seed = 1}};
+  struct arguments arguments = {.wish = {.tolerance = 0.01, .seed = -1}};
   return cli_run(&argp, argc, argv, run, &arguments);
 }

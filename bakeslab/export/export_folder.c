@@ -30,6 +30,10 @@ static bool is_export(const char *path) {
 /* Whether the target is there, and may go. */
 static enum result check_target(struct export_folder *folder, bool force, struct error *error) {
   struct stat status;
+  const char *slash = strrchr(folder->target, '/'), *name = slash ? slash + 1 : folder->target;
+  if (!*name || !strcmp(name, ".") || !strcmp(name, ".."))
+    return result_fail(error, RESULT_BAD, "\"%s\": is no name for a folder to be made",
+                       folder->target);
   if (lstat(folder->target, &status) != 0) return RESULT_OK;
   if (!S_ISDIR(status.st_mode))
     return result_fail(error, RESULT_BAD, "%s: is there and is no folder; choose another name",

@@ -62,6 +62,10 @@ export_it() { "$BAKESLAB" export "$@"; }
   refuses 2 -o -- export_it lamp.tif --as radiance
   refuses 2 --polygons -- export_it lamp.tif -o out --as radiance --polygons 0x2
   refuses 2 --tolerance -- export_it lamp.tif -o out --as radiance --tolerance 0
+  refuses 2 --rays -- export_it lamp.tif -o lamp.ies --rays 10
+  refuses 2 --seed -- export_it lamp.tif -o out --as cycles --seed 2
+  local name
+  for name in '' . .. none/.. /; do refuses 1 "\"$name\"" 'no name' -- export_it lamp.tif -o "$name" --as radiance --force; done
   refuses 1 none/out -- export_it lamp.tif -o none/out --as radiance
   refuses 1 gone.tif -- export_it gone.tif -o out --as radiance
   [ "$(ls)" = lamp.tif ]

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Lamps through files and back: as .ies by bakeslab export and import, and as TM-25 rays. Intensities
+# are those of renderslab a million metres away, in 200 directions over the windows of the pages.
+set -euo pipefail
+# shellcheck source=tests/bench/bench.bash
+. "$(dirname "$0")/bench.bash"
+mkdir -p round-trips
+cd round-trips
+LAMPS=${ROUND_TRIPS:-desk_lamp led_panel parabolic torch}
+
+# directions SLAB: 200 unit vectors, out of its pages in turn; Halton's points on their windows.
+directions() {
+  "$BAKESLAB" info --json "$1" | jq -r '.pages[] | [.st_window, .u, .v, .normal] | flatten | map(tostring) | join(" ")' |
+    awk '
+      function halton(n, base,   f, x) { for (f = 1; n > 0; n = int(n/base)) { f /= base; x += f*(n%base) } return x }
+      { for (k = 1; k <= 13; ++k) page[NR, k] = $k }
+      END { for (n = 1; n <= 200; ++n) {
+        p = n%NR + 1
+        s = page[p, 1] + (page[p, 2] - page[p, 1])*halton(n, 2)
+        t = page[p, 3] + (page[p, 4] - page[p, 3])*halton(n, 3)
+        u = v = r = 0
+        for (k = 0; k < 3; ++k) { u += page[p, 5 + k]^2; v += page[p, 8 + k]^2 }
+        for (k = 0; k < 3; ++k) { d[k] = page[p, 11 + k] + s*page[p, 5 + k]/sqrt(u) + t*page[p, 8 + k]/sqrt(v); r += d[k]^2 }
+        printf "%.12g %.12g %.12g\n", d[0]/sqrt(r), d[1]/sqrt(r), d[2]/sqrt(r) } }'
+}
+
+# intensities SLAB METRES DIRECTIONS: luminous, for a lamp unit of so many metres
+intensities() {
+  awk '{ print 1e6*$1, 1e6*$2, 1e6*$3, -$1, -$2, -$3 }' "$3" |
+    "$RENDERSLAB" irradiance --light "$1 scale=$2" --tolerance 1e-4 |
+    awk '{ printf "%.9g\n", 1e12*(0.2126*$1 + 0.7152*$2 + 0.0722*$3) }'
+}
+
+# lumens SLAB: times 179 where that is W
+lumens() {
+  "$BAKESLAB" info --json "$1" | jq '[.pages[]
+    | (if .radiance_unit == "W/(sr m2)" then 179 else 1 end)*(.flux | 0.2126*.[0] + 0.7152*.[1] + 0.0722*.[2])] | add'
+}
+
+metres() { "$BAKESLAB" info --json "$1" | jq '.pages[0].metres_per_unit // 1'; }
+unit() { "$BAKESLAB" info --json "$1" | jq 'if .pages[0].radiance_unit == "W/(sr m2)" then 179 else 1 end'; }
+
+heading 'slab -> .ies -> slab: of 200 directions, in % of the largest; flux in %'
+for lamp in $LAMPS; do
+  slab=$BUILD/round-trips/$lamp.tif
+  [ -e "$slab" ] || spend "$lamp-bake" "$BAKESLAB" bake "$root/lamps/$lamp.pov" -o "$slab" -q --yes
+  spend "$lamp-export" "$BAKESLAB" export "$slab" -o "$lamp.ies"
+  spend "$lamp-import" "$BAKESLAB" import "$lamp.ies" -o "$lamp-ies.tif"
+  directions "$slab" >"$lamp.directions"
+  paste <(intensities "$slab" "$(metres "$slab")" "$lamp.directions") <(intensities "$lamp-ies.tif" 1 "$lamp.directions") |
+    awk -v unit="$(unit "$slab")" '{ a = unit*$1; if (a > top) top = a; d[NR] = sqrt((a - $2)^2) } END {
+      for (n in d) if (d[n] > most) most = d[n]
+      for (n in d) sum += d[n]^2
+      printf "%.3f %.3f\n", 100*most/top, 100*sqrt(sum/NR)/top }' >"$lamp.off"
+  read -r most rms <"$lamp.off"
+  row "$lamp: most" "$most" '<= 1' "$(holds "$most <= 1")"
+  row "$lamp: RMS" "$rms"
+  flux=$(calc %.4f "100*($(lumens "$lamp-ies.tif")/$(lumens "$slab") - 1)")
+  row "$lamp: flux" "$flux" '+-0.2' "$(holds "($flux)^2 <= 0.04")"
+  row "$lamp: CPU s of export, import" "$(cat "$lamp-export.cpu") $(cat "$lamp-import.cpu")"
+  row "$lamp: angles, planes; bytes" "$(awk 'NR > 1 && /^1 -1/ { print $4, $5 }' "$lamp.ies") $(stat -c %s "$lamp.ies")"
+done
+
+heading 'slab -> TM-25 -> slab: 100,000 rays; their flux against the slab, relative'
+for lamp in $LAMPS; do
+  slab=$BUILD/round-trips/$lamp.tif
+  spend "$lamp-rays" "$BAKESLAB" export "$slab" -o "$lamp.tm25ray"
+  "$BAKESLAB" import "$lamp.tm25ray" -o "$lamp-rays.exr" -q --uv 2 --st 4
+  flux=$("$BAKESLAB" info --json "$slab" | jq '[.pages[].flux | 0.2126*.[0] + 0.7152*.[1] + 0.0722*.[2]] | add')
+  read_in=$("$BAKESLAB" info --json "$lamp-rays.exr" | jq '.pages[0].provenance.import.flux_in')
+  off=$(calc %.2g "$read_in/$flux - 1")
+  row "$lamp: flux" "$off" '+-1e-6' "$(holds "($off)^2 <= 1e-12")"
+done
