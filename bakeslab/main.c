@@ -4,6 +4,8 @@
 
 static const struct cli_command commands[] = {
     {"bake", cmd_bake, "render a lamp with POV-Ray into a light slab"},
+    {"status", cmd_status, "how far a bake is: batches done, claimed and missing, time left"},
+    {"gather", cmd_gather, "bring together what shards baked in folders of their own"},
     {"info", cmd_info, "geometry, samples, flux, peak and provenance of a slab"},
     {"check", cmd_check, "validate a slab; warn when it misses light, loses it or counts it twice"},
     {"lookup", cmd_lookup, "radiance of rays read from stdin"},

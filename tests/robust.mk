@@ -70,7 +70,7 @@ $(B)/tests/faults/nomem.so: tests/faults/nomem.c | $(B)/flags
 $(B)/tests/faults/bakeslab.log $(B)/tests/faults/renderslab.log: $(B)/tests/faults/%.log: $(FAULTS_PROGRAMS) $(BIN) FORCE
 	@$(TEST_ENV) TOOLS=$(abspath $(B)/tests/faults) sh tests/run.sh $@ bash -c '. tests/needs.bash && needs xvfb-run && exec xvfb-run -a -s "-screen 0 800x600x24 -noreset" "$$@"' _ $< $*
 
-$(B)/tests/faults/interrupted.log: $(B)/tests/faults/fake_povray
+$(B)/tests/faults/interrupted.log $(B)/tests/bake/shared.log: $(B)/tests/faults/fake_povray
 
 # A driver's memory that its globals hold looks lost once the driver is unloaded: for
 # render/viewer none is.

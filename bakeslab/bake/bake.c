@@ -11,7 +11,8 @@
  *    2008), as many as the tile's noise calls for (Neyman 1934).
  * 5. Samples are the sums over their rays; what they say of the slab, the balance of its light
  *    and its own error, goes into the report.
- * 6. Write the slab, with its provenance and the lamp's housing, and drop the store.
+ * 6. Write the slab, with its provenance and the lamp's housing, and drop the store. Of several
+ *    processes that bake the same, one does steps 5 and 6.
  *
  * The slab is that of Heidrich, Kautz, Slusallek and Seidel, "Canned Lightsources", 1998, section
  * 3. J. M. Hammersley and K. W. Morton, "A new Monte Carlo technique: antithetic variates",
@@ -27,10 +28,13 @@
 
 #include "bake/bake_channels.h"
 #include "bake/bake_estimate.h"
+#include "bake/bake_housing.h"
 #include "bake/bake_provenance.h"
 #include "bake/bake_warnings.h"
 #include "base/files.h"
 #include "base/sdl.h"
+#include "batch/bake_claim.h"
+#include "batch/bake_ledger.h"
 #include "batch/bake_rounds.h"
 #include "file/slab_file.h"
 #include "file/slab_json.h"
@@ -102,7 +106,7 @@ static enum result try_lamp(struct bake_work *work, struct bake_state *state,
   const struct bake_options *options = work->options;
   char *scratch;
   lamp_free(&state->lamp);
-  enum result result = bake_store_scratch(&state->store, &scratch, error);
+  enum result result = bake_store_scratch(&state->store, NULL, &scratch, error);
   if (result == RESULT_OK)
     result = lamp_try(&state->povray, &state->source, scratch, effects, NULL, work->stop,
                       &state->lamp, error);
@@ -265,35 +269,6 @@ static enum result assess(const struct bake_work *work, struct bake_state *state
 
 /* ---- 6. The slab ---- */
 
-/* The lamp's visible housing as SDL, where the script declares one that stands alone. */
-static enum result find_housing(const struct bake_work *work, struct bake_report *report,
-                                char **housing, struct error *error) {
-  char *script = files_read(work->source->folder, strrchr(work->source->path, '/') + 1);
-  char *scratch = NULL;
-  if (!script)
-    return result_fail(error, RESULT_IO, "%s: %s", work->source->script, strerror(errno));
-  errno = 0;
-  *housing = housing_find(script);
-  enum result result = RESULT_OK;
-  if (*housing)
-    result = bake_store_scratch(work->store, &scratch, error);
-  else if (errno == ENOMEM)
-    result = result_no_memory(error);
-  if (*housing && result == RESULT_OK)
-    result = housing_parses(work->povray, work->source, *housing, scratch, work->stop, error);
-  if (result == RESULT_BAD) {
-    warnings_add(&report->warnings,
-                 "Canned_Housing is left out of the slab, since it does not parse with only the "
-                 "numbers declared before it; write it without includes and macros");
-    free(*housing);
-    *housing = NULL;
-    result = RESULT_OK;
-  }
-  free(scratch);
-  free(script);
-  return result;
-}
-
 /* Writes into the pages how they were baked. */
 static enum result record(const struct bake_work *work, const struct bake_state *state,
                           const struct bake_report *report, struct error *error) {
@@ -322,7 +297,7 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
   int count = state->page_count;
   bake_sum_noise(state->rounds.sum, work->look.gain, work->look.offsets, &state->origin.noise);
   enum result result = bake_sum_finish(state->rounds.sum, work->look.gain, pages, error);
-  if (result == RESULT_OK) result = find_housing(work, report, &state->origin.housing, error);
+  if (result == RESULT_OK) result = bake_housing(work, report, &state->origin.housing, error);
   for (int n = 0; n < count && result == RESULT_OK; ++n)
     result = slab_json_set(&pages[n], "samples_are",
                            options->centre ? "\"points\"" : "\"cell_means\"", error);
@@ -336,9 +311,50 @@ static enum result write_slab(const struct bake_work *work, struct bake_state *s
   return result;
 }
 
+/* Makes the store one of this bake, which others may be at work on. */
+static enum result join(struct bake_work *work, struct error *error) {
+  struct bake_ledger ledger;
+  enum result result = bake_ledger_make(work, &ledger, error);
+  if (result == RESULT_OK) result = bake_ledger_join(work->store, &ledger, error);
+  if (result == RESULT_OK) memcpy(work->plan, ledger.plan, sizeof work->plan);
+  return result;
+}
+
+/* Steps 4 to 6, unless others have written the slab by now. */
+static enum result run(const struct bake_work *work, struct bake_work *channels,
+                       struct bake_state *state, struct bake_report *report, struct error *error) {
+  const struct bake_options *options = work->options;
+  enum result result = join(channels, error);
+  report->by_others = result == RESULT_OK && bake_store_is_done(work->store);
+  if (result != RESULT_OK || report->by_others) return result;
+  if (options->shards == 1) result = bake_energy_start(work, &state->energy, error);
+  if (result == RESULT_OK)
+    result = bake_rounds_run(channels, BAKE_LEDGER_LAST, &state->rounds, report, error);
+  report->assembled = state->rounds.whole;
+  report->by_others = result == RESULT_OK && !state->rounds.whole && options->shards == 1;
+  report->is_shard = options->shards > 1;
+  report->waits = state->rounds.waits;
+  report->pilot = state->rounds.number;
+  report->more_pilots = state->rounds.grows;
+  if (result != RESULT_OK || !report->assembled) return result;
+  /* Before the slab: with an old rule, make would take the new slab for up to date. */
+  if (options->depend)
+    result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
+                         false, error);
+  return result == RESULT_OK ? write_slab(work, state, report, error) : result;
+}
+
+/* Refused before it began, it leaves nothing that was not there. */
+static enum bake_store_end end_of(const struct bake_state *state, enum result before,
+                                  enum result result, const struct bake_report *report) {
+  if (before == RESULT_BAD && state->store.fresh) return BAKE_STORE_DROPPED;
+  if (result == RESULT_OK && report->assembled) return BAKE_STORE_DONE;
+  return result == RESULT_OK && report->is_shard ? BAKE_STORE_SHARD : BAKE_STORE_KEPT;
+}
+
 enum result bake(const struct bake_options *options, const volatile sig_atomic_t *stop,
                  struct bake_report *report, struct error *error) {
-  struct bake_state state = {.store = {.lock = -1}};
+  struct bake_state state = {.rounds.claim = BAKE_CLAIM_OTHERS};
   *report = (struct bake_report){.warnings.tell = options->warn};
   struct bake_work work = {.options = options,
                            .effort = bake_effort_of(options),
@@ -355,30 +371,23 @@ enum result bake(const struct bake_options *options, const volatile sig_atomic_t
   if (result == RESULT_OK)
     result = lamp_source_open(options->lamp, options->libraries, &state.source, error);
   if (result == RESULT_OK)
-    result = bake_store_open(options->output, options->shards > 1, &state.store, error);
+    result = bake_store_open(options->output, options->jobs, &state.store, error);
   if (result == RESULT_OK) result = prepare(&work, &state, report, error);
   if (result == RESULT_OK) result = be_strict(&work, report, error);
   if (result == RESULT_OK) result = bake_refuse_stray_light(&work, error);
-  struct bake_work channels;
+  struct bake_work channels = work;
   struct lamp lit;
   if (result == RESULT_OK) result = part_channels(&work, &state, &lit, &channels, error);
   if (result == RESULT_OK) result = announce(&channels, &state, report, error);
-  /* Refused before it began, it leaves nothing that was not there. */
-  bool refused = result == RESULT_BAD && state.store.fresh;
-  /* A shard leaves the slab to the run without --shard. */
-  report->assembled = options->shards == 1 && !options->dry_run;
-  if (result == RESULT_OK && report->assembled)
-    result = bake_energy_start(&work, &state.energy, error);
+  enum result before = result;
   if (result == RESULT_OK && !options->dry_run)
-    result = bake_rounds_run(&channels, "bake", &state.rounds, report, error);
-  report->highlights = state.lamp.reads.highlights;
-  /* Before the slab: with an old rule, make would take the new slab for up to date. */
-  if (result == RESULT_OK && report->assembled && options->depend)
-    result = lamp_depend(&state.lamp.reads, state.source.path, options->output, options->depend,
-                         false, error);
-  if (result == RESULT_OK && report->assembled) result = write_slab(&work, &state, report, error);
+    result = run(&work, &channels, &state, report, error);
   bake_energy_free(&state.energy);
-  bake_store_close(&state.store, refused || (result == RESULT_OK && report->assembled));
+  report->highlights = state.lamp.reads.highlights;
+  enum bake_store_end end = end_of(&state, before, result, report);
+  if (end != BAKE_STORE_DONE && state.rounds.claim != BAKE_CLAIM_OTHERS)
+    bake_claim_leave(state.store.worker, channels.plan, state.rounds.claim);
+  bake_store_close(&state.store, end);
   bake_rounds_free(&state.rounds);
   free(state.origin.housing);
   slab_file_free_all(state.pages, state.page_count);

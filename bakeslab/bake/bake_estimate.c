@@ -37,7 +37,7 @@ static enum result measure_bytes(const struct bake_work *work, const struct prob
   const char *output = work->options->output, *dot = strrchr(output, '.');
   char *scratch = NULL, *path = NULL;
   struct stat file;
-  enum result result = bake_store_scratch(work->store, &scratch, error);
+  enum result result = bake_store_scratch(work->store, NULL, &scratch, error);
   if (result != RESULT_OK) goto out;
   path = files_join(scratch, dot && !strcasecmp(dot, ".exr") ? "slab.exr" : "slab.tif");
   result = path ? slab_file_write(path, bake->pages, bake->count, work->options->precision, error)

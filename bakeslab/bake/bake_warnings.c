@@ -8,7 +8,7 @@
 
 static enum result begin_trial(const struct bake_work *work, struct lamp_trial *trial,
                                char **scratch, struct error *error) {
-  enum result result = bake_store_scratch(work->store, scratch, error);
+  enum result result = bake_store_scratch(work->store, NULL, scratch, error);
   *trial = (struct lamp_trial){.povray = work->povray,
                                .source = work->source,
                                .directory = *scratch,

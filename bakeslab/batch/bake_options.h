@@ -11,6 +11,9 @@
  * fitted to the light, narrower or wider. */
 enum bake_window { BAKE_WINDOW_DECLARED, BAKE_WINDOW_NARROWED, BAKE_WINDOW_AUTO };
 
+/* Which rounds a shard bakes: all; the first ones, by which the last is planned; that. */
+enum bake_wave { BAKE_WAVE_ALL, BAKE_WAVE_PILOT, BAKE_WAVE_REST };
+
 struct bake_options {
   const char *lamp, *output;
   const char *povray;           /* program */
@@ -33,6 +36,7 @@ struct bake_options {
   enum bake_window window;
   int jobs;
   int shard, shards; /* this process bakes batches shard, shard+shards, ... */
+  enum bake_wave wave;
   enum slab_precision precision;
   bool uv_free, st_free; /* not given: a tolerance may choose others */
   bool centre;           /* one ray through each sample's centre */
@@ -47,7 +51,12 @@ struct bake_options {
 struct bake_report {
   double rays;           /* shot in this run */
   int batches, found;    /* of this bake; found finished by an earlier run */
-  bool assembled;        /* false: a shard, which leaves that to the run without */
+  bool assembled;        /* this run wrote the slab */
+  bool is_shard;         /* this run baked its part of the batches */
+  bool by_others;        /* another one did, with its batches */
+  bool waits;            /* a shard, for those of others, before it can go on with... */
+  int pilot;             /* ... this pilot, */
+  bool more_pilots;      /* which others may follow */
   double cpu, probe_cpu; /* seconds of POV-Ray in this run, for the slab and before it */
   double traced;         /* rays of all kinds, by POV-Ray's own count, of all batches */
   double traced_cpu;     /* seconds that it took, by the same count */

@@ -47,6 +47,7 @@ struct bake_unit {
 struct bake_batch {
   size_t first, count; /* in units[] */
   size_t rays;
+  char key[33]; /* under which the store has it; by bake_run_keys */
 };
 
 struct bake_round {
@@ -54,7 +55,8 @@ struct bake_round {
   struct bake_unit *units;
   struct bake_batch *batches;
   size_t box_count, unit_count, batch_count;
-  int apertures; /* of its tiles */
+  int apertures;     /* of its tiles */
+  const char *label; /* what it is, for progress; NULL until it is run; not owned */
 };
 void bake_round_free(struct bake_round *round);
 

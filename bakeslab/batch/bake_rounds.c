@@ -11,14 +11,20 @@
  *    budget (bake_allocate.c). The same of all, where the search found no beams.
  * 6. The last round renders what is still missing of them (bake_plan.h).
  *
- * A shard sums all rounds but the last, since it plans by them; of that it renders its own part
- * alone and sums nothing. */
+ * Rounds before the last, the pilots, are summed by all processes at work, since they plan by them.
+ * The last is by the one that holds the claim on the slab (bake_claim.h), or gets it since that one
+ * died; the others wait for the slab. A shard renders its own part of the last round alone and sums
+ * nothing of it; in waves, the same of a pilot that is not whole, and then it ends. */
 #include "batch/bake_rounds.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 
+#include "batch/bake_claim.h"
 #include "batch/bake_grow.h"
+#include "batch/bake_ledger.h"
 #include "batch/bake_need.h"
 
 /* With fewer passes, the scatter of their pairs says nothing. */
@@ -31,7 +37,8 @@ struct bake_effort bake_effort_of(const struct bake_options *options) {
                               .rays_max = options->rays_max,
                               .adaptive = !options->uniform && options->rays > FIRST,
                               .shard = options->shard,
-                              .shards = options->shards};
+                              .shards = options->shards,
+                              .wave = options->wave};
 }
 
 /* Whether each POV-Ray process costs as much as many rays do. */
@@ -73,14 +80,100 @@ static void free_plan(struct plan *plan) {
   free(plan->deviation);
 }
 
+/* ---- Who renders what of a round ---- */
+
+/* Batches of a round that the store has not. */
+static size_t count_missing(const struct bake_work *work, const struct bake_round *round) {
+  size_t missing = 0;
+  for (size_t n = 0; n < round->batch_count; ++n) {
+    char *folder = bake_store_path(work->store, round->batches[n].key);
+    missing += folder && access(folder, F_OK) != 0;
+    free(folder);
+  }
+  return missing;
+}
+
+/* A pilot, in waves of shards that share no folder. */
+static enum result run_wave(const struct bake_work *work, struct bake_rounds *rounds,
+                            const struct bake_round *round, struct bake_report *report,
+                            struct error *error) {
+  size_t missing = count_missing(work, round);
+  enum result result = RESULT_OK;
+  if (missing > 0 && work->effort.wave == BAKE_WAVE_REST)
+    return result_fail(error, RESULT_IO,
+                       "%s: %zu of the %zu batches of pilot %d are missing; bring the folders of "
+                       "all shards together (bakeslab gather), and bake with --round pilot first",
+                       work->store->directory, missing, round->batch_count, rounds->number);
+  if (missing > 0) result = bake_run(work, round, true, NULL, report, error);
+  rounds->waits = result != RESULT_OK || count_missing(work, round) > 0;
+  if (rounds->waits) return result;
+  return bake_run(work, round, false, rounds->sum, report, error);
+}
+
+/* Waits until the slab is written, or its claim is ours to take. */
+static enum result await_slab(const struct bake_work *work, struct bake_rounds *rounds,
+                              struct error *error) {
+  const struct bake_store *store = work->store;
+  enum result result = RESULT_OK;
+  while (result == RESULT_OK && !bake_store_is_done(store)) {
+    if (*work->stop) return bake_run_stopped(work, error);
+    result = bake_worker_renew(store->worker, error);
+    if (result == RESULT_OK)
+      result = bake_claim_take(store->worker, work->plan, &rounds->claim, error);
+    if (rounds->claim != BAKE_CLAIM_OTHERS) break;
+    nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
+  }
+  rounds->whole = result == RESULT_OK && !bake_store_is_done(store);
+  return result;
+}
+
+/* The last round: who has the claim on the slab sums it on the way. */
+static enum result run_last(const struct bake_work *work, struct bake_rounds *rounds,
+                            const struct bake_round *round, struct bake_report *report,
+                            struct error *error) {
+  enum result result = bake_claim_take(work->store->worker, work->plan, &rounds->claim, error);
+  bool whole = rounds->claim != BAKE_CLAIM_OTHERS;
+  if (result == RESULT_OK)
+    result = bake_run(work, round, false, whole ? rounds->sum : NULL, report, error);
+  rounds->whole = whole;
+  if (result != RESULT_OK || whole) return result;
+  result = await_slab(work, rounds, error);
+  struct bake_report all = {0}; /* counts what was rendered here once more */
+  if (result == RESULT_OK && rounds->whole)
+    result = bake_run(work, round, false, rounds->sum, &all, error);
+  report->rays += all.rays;
+  report->cpu += all.cpu;
+  memcpy(report->photons_lost, all.photons_lost, sizeof report->photons_lost);
+  return result;
+}
+
+static enum result run_round(const struct bake_work *work, struct bake_rounds *rounds,
+                             struct bake_round *round, const char *label, bool last,
+                             struct bake_report *report, struct error *error) {
+  round->label = label;
+  ++rounds->number;
+  enum result result = bake_run_keys(work, round, error);
+  if (result == RESULT_OK && work->plan[0])
+    result = bake_ledger_list(work->store, rounds->number, round, error);
+  if (result != RESULT_OK) return result;
+  if (!work->plan[0] || (!last && work->effort.wave == BAKE_WAVE_ALL))
+    return bake_run(work, round, false, rounds->sum, report, error);
+  if (!last) return run_wave(work, rounds, round, report, error);
+  if (work->effort.wave == BAKE_WAVE_PILOT) return RESULT_OK;
+  if (work->effort.shards > 1) return bake_run(work, round, true, NULL, report, error);
+  return run_last(work, rounds, round, report, error);
+}
+
+/* ---- The rounds ---- */
+
 /* Renders what tiles lack of plan->wanted. */
 static enum result run_rest(const struct bake_work *work, struct bake_rounds *rounds,
-                            struct plan *plan, struct bake_sum *sum, const char *label,
+                            struct plan *plan, const char *label, bool last,
                             struct bake_report *report, struct error *error) {
   struct bake_round round;
   enum result result =
       bake_plan_rest(&rounds->tiles, plan->done, plan->wanted, work->look.form, &round, error);
-  if (result == RESULT_OK) result = bake_run(work, &round, sum, label, report, error);
+  if (result == RESULT_OK) result = run_round(work, rounds, &round, label, last, report, error);
   memcpy(plan->done, plan->wanted, plan->tiles * sizeof *plan->done);
   bake_round_free(&round);
   return result;
@@ -105,15 +198,15 @@ static enum result run_adaptive(const struct bake_work *work, const char *label,
   struct plan plan = {0};
   enum result result = make_plan(&rounds->tiles, searches(work) ? 0 : FIRST, &plan, error);
   bool beams = bake_grow_has_beams(&rounds->tiles, rounds->sum);
-  while (result == RESULT_OK && beams &&
+  while (result == RESULT_OK && beams && !rounds->waits &&
          bake_grow(&rounds->tiles, rounds->sum, FIRST, plan.wanted) > 0)
-    result = run_rest(work, rounds, &plan, rounds->sum, "pilot", report, error);
+    result = run_rest(work, rounds, &plan, "pilot", false, report, error);
   for (size_t n = 0; n < plan.tiles && result == RESULT_OK && !beams; ++n)
     plan.wanted[n] = work->effort.rays;
-  if (result == RESULT_OK && beams) result = find_passes(work, rounds, &plan, error);
-  if (result == RESULT_OK)
-    result = run_rest(work, rounds, &plan, work->effort.shards > 1 ? NULL : rounds->sum, label,
-                      report, error);
+  if (result == RESULT_OK && beams && !rounds->waits)
+    result = find_passes(work, rounds, &plan, error);
+  if (result == RESULT_OK && !rounds->waits)
+    result = run_rest(work, rounds, &plan, label, true, report, error);
   free_plan(&plan);
   return result;
 }
@@ -122,10 +215,10 @@ enum result bake_rounds_run(const struct bake_work *work, const char *label,
                             struct bake_rounds *rounds, struct bake_report *report,
                             struct error *error) {
   const struct bake_effort *effort = &work->effort;
-  bool adaptive = effort->adaptive, shard = effort->shards > 1;
+  bool adaptive = effort->adaptive;
   int from = searches(work) ? BAKE_SEARCH : 0, most = adaptive ? effort->rays_max : effort->rays;
   struct bake_round whole = {0};
-  *rounds = (struct bake_rounds){0};
+  *rounds = (struct bake_rounds){.claim = BAKE_CLAIM_OTHERS, .grows = searches(work)};
   enum result result =
       bake_tiles_init(&rounds->tiles, work->slabs, work->lamp->slab_count,
                       work->look.form == BAKE_TRANSPOSED, searches(work) ? BEAM_TILE : TILE, error);
@@ -135,13 +228,14 @@ enum result bake_rounds_run(const struct bake_work *work, const char *label,
     result = bake_plan_whole(&rounds->tiles, from, from + bake_rounds_first(work), work->look.form,
                              &whole, error);
   if (result == RESULT_OK)
-    result = bake_run(work, &whole, adaptive || !shard ? rounds->sum : NULL,
-                      from == BAKE_SEARCH ? "search"
-                      : adaptive          ? "pilot"
-                                          : label,
-                      report, error);
+    result = run_round(work, rounds, &whole,
+                       from == BAKE_SEARCH ? "search"
+                       : adaptive          ? "pilot"
+                                           : label,
+                       !adaptive, report, error);
   bake_round_free(&whole);
-  if (result == RESULT_OK && adaptive) result = run_adaptive(work, label, rounds, report, error);
+  if (result == RESULT_OK && adaptive && !rounds->waits)
+    result = run_adaptive(work, label, rounds, report, error);
   return result;
 }
 

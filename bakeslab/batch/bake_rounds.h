@@ -7,7 +7,12 @@
 
 struct bake_rounds {
   struct bake_tiles tiles;
-  struct bake_sum *sum; /* whole, unless work->effort.shards > 1 */
+  struct bake_sum *sum; /* of all rays, where `whole` */
+  int number;           /* of rounds that were begun; of pilots, where `waits` */
+  bool whole; /* the slab may be made of the sum, by this process: the claim on it is held */
+  bool waits; /* for the batches of other shards, before it goes on */
+  bool grows; /* more pilots follow the first, as long as there is something new */
+  int claim;  /* on the plan, where whole */
 };
 
 /* What the user asks for. */

@@ -12,7 +12,8 @@
 #include <unistd.h>
 
 #include "base/files.h"
-#include "povray/povray_log.h"
+#include "batch/bake_claim.h"
+#include "batch/bake_counts.h"
 
 /* A POV-Ray process is idle for some 0.05 s before its first pixel and after its last one: the next
  * may start when one has no more than these seconds left to render. */
@@ -25,8 +26,8 @@ struct process {
   pid_t pid;
   double start; /* seconds */
   size_t batch;
+  int claim; /* on the batch (bake_claim.h) */
   int times; /* that its POV-Ray started too late */
-  char key[33];
   char *scratch;
   struct povray_job job; /* directory is scratch */
 };
@@ -37,36 +38,46 @@ struct run {
   struct lamp_library library;
   struct process *processes; /* 2 * jobs: as many may be closing as are rendering */
   int slots;
-  float *rgb;           /* room for the largest batch, to verify it */
-  struct bake_sum *sum; /* or NULL */
-  bool *ready;          /* by batch: finished */
-  size_t summed;        /* batches added to the sum */
-  size_t *order;        /* batches to render, in this order */
-  size_t count, next;
+  float *rgb;               /* room for the largest batch, to verify it */
+  struct bake_sum *sum;     /* or NULL */
+  bool *ready;              /* by batch: finished */
+  size_t summed;            /* batches added to the sum */
+  size_t *order;            /* batches that are neither found nor in hand, in this order */
+  size_t count, next, kept; /* of them; looked at, and left, since they were last gone through */
+  double again, pause;      /* when others' batches are looked at again; seconds from then on */
   size_t rays_done, rays_all;
-  double traced, traced_cpu, depth; /* see bake_report */
-  char photons_lost[48];
+  struct bake_counts counts;
   struct progress progress;
 };
 
-/* The scene of a batch, and the key under which the store has it. */
+/* The scene of a batch, and its job. */
 static char *batch_text(const struct bake_work *work, const struct bake_round *round, size_t batch,
-                        struct povray_job *job, char key[33]) {
+                        struct povray_job *job) {
   *job = (struct povray_job){0};
   bake_scene_size(&work->look, round, &round->batches[batch], job);
-  char *text = bake_scene_text(&work->look, work->slabs, work->lamp->slab_count, round,
-                               &round->batches[batch]);
-  if (text) bake_store_key(key, text, work->lamp->reads.key, work->povray->version, NULL);
-  return text;
+  return bake_scene_text(&work->look, work->slabs, work->lamp->slab_count, round,
+                         &round->batches[batch]);
+}
+
+enum result bake_run_keys(const struct bake_work *work, struct bake_round *round,
+                          struct error *error) {
+  for (size_t n = 0; n < round->batch_count; ++n) {
+    struct povray_job job;
+    char *text = batch_text(work, round, n, &job);
+    if (!text) return result_no_memory(error);
+    bake_store_key(round->batches[n].key, text, work->lamp->reads.key, work->povray->version, NULL);
+    free(text);
+  }
+  return RESULT_OK;
 }
 
 /* The folder of a batch in the store, there or not, which is that of the job too; to be freed.
  * NULL without memory. */
 static char *batch_folder(const struct run *run, size_t batch, struct povray_job *job) {
-  char key[33];
-  char *text = batch_text(run->work, run->round, batch, job, key);
-  char *folder = text ? bake_store_path(run->work->store, key) : NULL;
-  free(text);
+  const struct bake_work *work = run->work;
+  *job = (struct povray_job){0};
+  bake_scene_size(&work->look, run->round, &run->round->batches[batch], job);
+  char *folder = bake_store_path(work->store, run->round->batches[batch].key);
   job->directory = folder;
   return folder;
 }
@@ -83,7 +94,7 @@ static enum result read_stored(struct run *run, size_t batch, struct error *erro
   char *folder = batch_folder(run, batch, &job);
   enum result result = folder ? read_batch(run, batch, &job, error) : result_no_memory(error);
   free(folder);
-  return result;
+  return result == RESULT_OK ? bake_worker_renew(run->work->store->worker, error) : result;
 }
 
 /* Marks a batch, which run->rgb holds, as finished, and adds to the sum in the order of the
@@ -104,22 +115,28 @@ static enum result take_batch(struct run *run, size_t batch, struct error *error
 
 /* ---- Starting and ending processes ---- */
 
+static const char *key_of(const struct run *run, const struct process *process) {
+  return run->round->batches[process->batch].key;
+}
+
 /* Frees the slot of a process; `remove`: with its scratch folder, which has else moved to the
- * store. */
-static void release(struct process *process, bool remove) {
+ * store, and its claim. */
+static void release(const struct run *run, struct process *process, bool remove) {
   if (remove && process->scratch) files_remove_tree(process->scratch);
+  if (remove) bake_claim_leave(run->work->store->worker, key_of(run, process), process->claim);
   free(process->scratch);
   process->scratch = NULL;
   process->state = IDLE;
 }
 
-static enum result start_batch(struct run *run, struct process *process, size_t batch,
+static enum result start_batch(struct run *run, struct process *process, size_t batch, int claim,
                                struct error *error) {
   const struct bake_work *work = run->work;
-  *process = (struct process){.batch = batch, .times = process->times};
-  char *text = batch_text(work, run->round, batch, &process->job, process->key);
+  *process = (struct process){.batch = batch, .claim = claim, .times = process->times};
+  char *text = batch_text(work, run->round, batch, &process->job);
   enum result result =
-      text ? bake_store_scratch(work->store, &process->scratch, error) : result_no_memory(error);
+      text ? bake_store_scratch(work->store, key_of(run, process), &process->scratch, error)
+           : result_no_memory(error);
   process->job.directory = process->scratch;
   process->job.library = run->library.paths;
   process->job.environment = lamp_without_highlights;
@@ -132,7 +149,7 @@ static enum result start_batch(struct run *run, struct process *process, size_t 
     process->start = progress_now();
     return RESULT_OK;
   }
-  release(process, true);
+  release(run, process, true);
   return result;
 }
 
@@ -151,65 +168,33 @@ static enum result explain_full_disk(const struct bake_store *store, size_t rays
                      store->directory, error->text);
 }
 
-/* Whether there is something in the batch's channel to shoot photons. */
-static bool has_bulbs(const struct run *run, size_t batch) {
-  const struct bake_round *round = run->round;
-  const struct bake_unit *unit = &round->units[round->batches[batch].first];
-  const char *name = run->work->slabs[round->boxes[unit->box].page].channel;
-  const struct lamp *lamp = run->work->lamp;
-  for (int n = 0; n < lamp->channel_count; ++n)
-    if (!strcmp(lamp->channels[n].name, name)) return lamp->channels[n].bulbs > 0;
-  return true;
-}
-
-/* POV-Ray says nothing of photons that miss their targets, and their light is lost. Where nobody
- * named the effect, a lamp without targets loses nothing. */
-static void check_photons(struct run *run, size_t batch, const char *directory) {
-  enum { TOO_FEW = 1000 };
-  const struct effects *effects = run->work->look.effects;
-  if (!effects->setting[CAUSTICS] || !has_bulbs(run, batch)) return;
-  double shot = fmax(0, povray_statistic(directory, "Number of photons shot:"));
-  double stored = fmax(0, povray_statistic(directory, "Surface photons stored:"));
-  if (shot >= TOO_FEW && stored > 0) return;
-  if (!effects->named && (shot == 0 || shot >= TOO_FEW)) return;
-  snprintf(run->photons_lost, sizeof run->photons_lost, "POV-Ray shot %.0f photons and stored %.0f",
-           shot, stored);
-}
-
-/* Adds POV-Ray's own counts, from the log of a finished batch. */
-static void count_work(struct run *run, size_t batch, const char *directory) {
-  static const char *const labels[] = {"Rays:", "Shadow Ray Tests:", "Number of photons shot:"};
-  for (size_t n = 0; n < sizeof labels / sizeof *labels; ++n)
-    run->traced += fmax(0, povray_statistic(directory, labels[n]));
-  run->traced_cpu += povray_log_cpu(directory);
-  run->depth = fmax(run->depth, povray_statistic(directory, "Max Level:"));
-  check_photons(run, batch, directory);
-}
-
 static enum result end_batch(struct run *run, struct process *process, int status,
                              struct error *error) {
   const struct bake_work *work = run->work;
   const struct bake_batch *batch = &run->round->batches[process->batch];
   enum result result = povray_finish(&process->job, status, error);
   if (result == RESULT_BAD && povray_is_late(&process->job, &process->times)) {
-    release(process, true);
-    return start_batch(run, process, process->batch, error);
+    files_remove_tree(process->scratch);
+    free(process->scratch);
+    return start_batch(run, process, process->batch, process->claim, error);
   }
   process->times = 0;
   if (result != RESULT_OK) lamp_source_rename(work->source, error);
   bool crashed = result == RESULT_IO;
   if (result == RESULT_OK) result = read_batch(run, process->batch, &process->job, error);
-  if (result == RESULT_OK) count_work(run, process->batch, process->scratch);
-  if (result == RESULT_OK && run->photons_lost[0] && work->look.effects->named)
-    result =
-        result_fail(error, RESULT_BAD, "caustics: %s; " BAKE_PHOTONS_ADVICE, run->photons_lost);
+  if (result == RESULT_OK)
+    bake_counts_add(&run->counts, run->round, process->batch, process->scratch);
+  if (result == RESULT_OK && run->counts.photons_lost[0] && work->look.effects->named)
+    result = result_fail(error, RESULT_BAD, "caustics: %s; " BAKE_PHOTONS_ADVICE,
+                         run->counts.photons_lost);
   if (result == RESULT_BAD || crashed)
     result_fail(error, result, "%s: %s", work->options->lamp, error->text);
   if (result == RESULT_OK) result = lamp_reads_unchanged(&work->lamp->reads, error);
   if (result == RESULT_OK)
-    result = bake_store_commit(work->store, process->scratch, process->key, error);
+    result = bake_store_commit(work->store, process->scratch, batch->key, error);
+  if (result == RESULT_OK) bake_claim_end(work->store->worker, batch->key, process->claim);
   if (result != RESULT_OK) result = explain_full_disk(work->store, batch->rays, result, error);
-  release(process, result != RESULT_OK);
+  release(run, process, result != RESULT_OK);
   return result != RESULT_OK ? result : take_batch(run, process->batch, error);
 }
 
@@ -220,34 +205,69 @@ static void kill_all(struct run *run) {
     struct process *process = &run->processes[n];
     if (process->state == IDLE) continue;
     while (waitpid(process->pid, NULL, 0) < 0 && errno == EINTR) continue;
-    release(process, true);
+    release(run, process, true);
   }
 }
 
 /* ---- The loop ---- */
 
-/* Whether the store has a batch, which is in run->rgb then. */
-static bool is_found(struct run *run, size_t batch) {
+/* Takes a batch that the store has: with a sum, only if it is whole. */
+static enum result take_found(struct run *run, size_t batch, bool *found,
+                              struct bake_report *report, struct error *error) {
   struct povray_job job;
   char *folder = batch_folder(run, batch, &job);
-  bool there = folder && access(folder, F_OK) == 0;
-  bool whole = there && read_batch(run, batch, &job, NULL) == RESULT_OK;
-  if (whole) count_work(run, batch, folder);
-  if (there && !whole) files_remove_tree(folder); /* damaged: bake it again */
+  if (!folder) return result_no_memory(error);
+  *found =
+      access(folder, F_OK) == 0 && (!run->sum || read_batch(run, batch, &job, NULL) == RESULT_OK);
+  if (*found && run->sum) bake_counts_add(&run->counts, run->round, batch, folder);
   free(folder);
-  return whole;
+  if (!*found) return RESULT_OK;
+  ++report->found;
+  run->pause = 0;
+  enum result result = take_batch(run, batch, error);
+  run->progress.start_part = (double)run->rays_done / (double)run->rays_all;
+  return result;
 }
 
-/* Moves run->next on to a batch that the store lacks. */
-static enum result skip_found(struct run *run, struct bake_report *report, struct error *error) {
-  for (; run->next < run->count; ++run->next) {
-    size_t batch = run->order[run->next];
-    if (!is_found(run, batch)) return RESULT_OK;
-    ++report->found;
-    enum result result = take_batch(run, batch, error);
-    if (result != RESULT_OK) return result;
-    run->progress.start_part = (double)run->rays_done / (double)run->rays_all;
+/* Claims a batch that was not found, and looks once more: its claim may have gone since it is
+ * there. One that is damaged goes. */
+static enum result claim_batch(struct run *run, size_t batch, int *claim, bool *found,
+                               struct bake_report *report, struct error *error) {
+  const struct bake_store *store = run->work->store;
+  const char *key = run->round->batches[batch].key;
+  enum result result = bake_claim_take(store->worker, key, claim, error);
+  if (result != RESULT_OK || *claim == BAKE_CLAIM_OTHERS) return result;
+  result = take_found(run, batch, found, report, error);
+  char *folder = *found ? NULL : bake_store_path(store, key);
+  if (folder) files_remove_tree(folder);
+  free(folder);
+  if (*found) bake_claim_end(store->worker, key, *claim);
+  return result;
+}
+
+/* Goes on through what is left to a batch that is ours to render: *claim is its number, or
+ * BAKE_CLAIM_OTHERS where there is none for now. What others hold is looked at again after a
+ * while. */
+static enum result find_batch(struct run *run, size_t *batch, int *claim,
+                              struct bake_report *report, struct error *error) {
+  static const double least_pause = 0.05, most_pause = 1;
+  *claim = BAKE_CLAIM_OTHERS;
+  if (progress_now() < run->again) return RESULT_OK;
+  while (run->next < run->count) {
+    bool found = false;
+    *batch = run->order[run->next++];
+    enum result result = bake_worker_renew(run->work->store->worker, error);
+    if (result == RESULT_OK) result = take_found(run, *batch, &found, report, error);
+    if (result == RESULT_OK && !found)
+      result = claim_batch(run, *batch, claim, &found, report, error);
+    if (result != RESULT_OK || (!found && *claim != BAKE_CLAIM_OTHERS)) return result;
+    *claim = BAKE_CLAIM_OTHERS;
+    if (!found) run->order[run->kept++] = *batch;
   }
+  run->count = run->kept;
+  run->next = run->kept = 0;
+  run->pause = fmin(fmax(2 * run->pause, least_pause), most_pause);
+  run->again = progress_now() + run->pause;
   return RESULT_OK;
 }
 
@@ -288,40 +308,64 @@ static enum result collect(struct run *run, struct bake_report *report, struct e
   return RESULT_OK;
 }
 
-static enum result loop(struct run *run, const char *label, struct bake_report *report,
-                        struct error *error) {
+/* As many as there are jobs, where there is something for them. */
+static enum result start_batches(struct run *run, int rendering, struct bake_report *report,
+                                 struct error *error) {
+  for (; rendering < run->work->options->jobs; ++rendering) {
+    struct process *process = idle_process(run);
+    size_t batch = 0;
+    int claim;
+    if (!process) return RESULT_OK;
+    enum result result = find_batch(run, &batch, &claim, report, error);
+    if (result != RESULT_OK || claim == BAKE_CLAIM_OTHERS) return result;
+    result = start_batch(run, process, batch, claim, error);
+    if (result != RESULT_OK) return explain_full_disk(run->work->store, 0, result, error);
+  }
+  return RESULT_OK;
+}
+
+enum result bake_run_stopped(const struct bake_work *work, struct error *error) {
+  return result_fail(error, RESULT_STOPPED,
+                     "interrupted; finished batches are in %s, and the same command goes on "
+                     "from them",
+                     work->store->directory);
+}
+
+static enum result loop(struct run *run, struct bake_report *report, struct error *error) {
   for (;;) {
-    if (*run->work->stop)
-      return result_fail(error, RESULT_STOPPED,
-                         "interrupted; finished batches are in %s, and the same command goes on "
-                         "from them",
-                         run->work->store->directory);
+    if (*run->work->stop) return bake_run_stopped(run->work, error);
     enum result result = collect(run, report, error);
+    if (result == RESULT_OK) result = bake_worker_renew(run->work->store->worker, error);
     if (result != RESULT_OK) return result;
     double rays;
     int rendering = count_rendering(run, &rays);
-    progress_show(&run->progress, rays / (double)run->rays_all, label);
-    for (; rendering < run->work->options->jobs; ++rendering) {
-      struct process *process = idle_process(run);
-      if (process) result = skip_found(run, report, error);
-      if (result != RESULT_OK) return result;
-      if (!process || run->next == run->count) break;
-      result = start_batch(run, process, run->order[run->next++], error);
-      if (result != RESULT_OK) return explain_full_disk(run->work->store, 0, result, error);
-    }
+    progress_show(&run->progress, rays / (double)run->rays_all, run->round->label);
+    result = start_batches(run, rendering, report, error);
+    if (result != RESULT_OK) return result;
     bool busy = false;
     for (int n = 0; n < run->slots; ++n) busy |= run->processes[n].state != IDLE;
-    if (!busy && run->next == run->count) return RESULT_OK;
+    if (!busy && run->count == 0) return RESULT_OK;
     nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
   }
 }
 
+/* Where a process begins: who comes to others, at a place of its own, so that they do not all try
+ * the same batches. */
+static size_t first_batch(const struct run *run) {
+  const char *id = run->work->store->worker->name.id;
+  size_t hash = 0;
+  if (!bake_store_has_others(run->work->store)) return 0;
+  for (; *id; ++id) hash = 31 * hash + (unsigned char)*id;
+  return hash % (run->round->batch_count + 1);
+}
+
 /* This shard's batches first, then the others'. Returns the rays of the largest. */
-static size_t put_in_order(struct run *run) {
-  size_t largest = 1, shards = (size_t)run->work->effort.shards;
-  for (size_t turn = 0; turn < (run->sum ? shards : 1); ++turn)
-    for (size_t n = ((size_t)run->work->effort.shard + turn) % shards; n < run->round->batch_count;
-         n += shards) {
+static size_t put_in_order(struct run *run, bool part) {
+  size_t largest = 1, shards = (size_t)run->work->effort.shards, count = run->round->batch_count;
+  size_t first = shards > 1 ? 0 : first_batch(run);
+  for (size_t turn = 0; turn < (part ? 1 : shards); ++turn)
+    for (size_t k = ((size_t)run->work->effort.shard + turn) % shards; k < count; k += shards) {
+      size_t n = (k + first) % count;
       run->order[run->count++] = n;
       run->rays_all += run->round->batches[n].rays;
       if (run->round->batches[n].rays > largest) largest = run->round->batches[n].rays;
@@ -329,28 +373,25 @@ static size_t put_in_order(struct run *run) {
   return largest;
 }
 
-enum result bake_run(const struct bake_work *work, const struct bake_round *round,
-                     struct bake_sum *sum, const char *label, struct bake_report *report,
-                     struct error *error) {
+enum result bake_run(const struct bake_work *work, const struct bake_round *round, bool part,
+                     struct bake_sum *sum, struct bake_report *report, struct error *error) {
   struct run run = {.work = work, .round = round, .sum = sum, .slots = 2 * work->options->jobs};
+  run.counts =
+      (struct bake_counts){.effects = work->look.effects, .lamp = work->lamp, .slabs = work->slabs};
   run.processes = calloc((size_t)run.slots, sizeof *run.processes);
   run.order = malloc((round->batch_count + 1) * sizeof *run.order);
   run.ready = calloc(round->batch_count + 1, sizeof *run.ready);
-  size_t largest = run.order ? put_in_order(&run) : 1;
+  size_t largest = run.order ? put_in_order(&run, part) : 1;
   run.rgb = malloc(largest * 3 * sizeof *run.rgb);
   report->batches += (int)run.count;
   lamp_source_library(work->source, &run.library);
   enum result result = RESULT_OK;
   if (!run.processes || !run.order || !run.ready || !run.rgb) result = result_no_memory(error);
   progress_start(&run.progress, work->options->quiet, 0);
-  if (result == RESULT_OK) result = loop(&run, label, report, error);
+  if (result == RESULT_OK) result = loop(&run, report, error);
   if (run.processes) kill_all(&run);
   progress_end(&run.progress);
-  report->traced += run.traced;
-  report->traced_cpu += run.traced_cpu;
-  if (report->depth < run.depth) report->depth = (int)run.depth;
-  if (run.photons_lost[0])
-    memcpy(report->photons_lost, run.photons_lost, sizeof report->photons_lost);
+  bake_counts_report(&run.counts, report);
   free(run.processes);
   free(run.order);
   free(run.ready);

@@ -14,6 +14,7 @@ struct bake_effort {
   int rays_max;      /* for the noisiest tiles, where adaptive */
   bool adaptive;     /* tiles get passes by their noise; else all get the same */
   int shard, shards; /* this process renders batches shard, shard + shards, ... */
+  enum bake_wave wave;
 };
 
 /* All that a round needs besides itself; nothing is owned. */
@@ -26,6 +27,7 @@ struct bake_work {
   const struct bake_store *store;
   const struct slab *slabs; /* lamp->slab_count of them */
   struct bake_look look;
+  char plan[33]; /* key of the whole bake (bake_ledger.h); empty: of a small one */
   const volatile sig_atomic_t *stop;
 };
 
@@ -35,11 +37,17 @@ struct bake_work {
   "leave "                                                                                         \
   "caustics out"
 
-/* Renders what the store lacks of a round. With a sum, all of it (this shard's batches
- * first), added to the sum in order; without, this shard's batches alone. On an error or
- * a stop all processes end and their scratch folders go; finished batches stay. */
-enum result bake_run(const struct bake_work *work, const struct bake_round *round,
-                     struct bake_sum *sum, const char *label, struct bake_report *report,
-                     struct error *error);
+/* What an interrupted bake says. */
+enum result bake_run_stopped(const struct bake_work *work, struct error *error);
+
+/* The keys of a round's batches. */
+enum result bake_run_keys(const struct bake_work *work, struct bake_round *round,
+                          struct error *error);
+
+/* Renders what the store lacks of a round and nobody else holds, and waits for what others do;
+ * `part`: of this shard's batches alone. With a sum, all of the round is added to that, in order.
+ * On an error or a stop all processes end and their scratch folders go; finished batches stay. */
+enum result bake_run(const struct bake_work *work, const struct bake_round *round, bool part,
+                     struct bake_sum *sum, struct bake_report *report, struct error *error);
 
 #endif

@@ -8,127 +8,228 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 #define XXH_STATIC_LINKING_ONLY /* for the size of a state */
 #include <xxhash.h>
 
 #include "base/files.h"
 
-static const char scratch_mark[] = "scratch.", lock_name[] = "lock";
+static const char scratch_mark[] = "scratch.", worker_mark[] = "worker.", round_mark[] = "round.",
+                  removal_name[] = "removal", done_name[] = "done";
 
-/* Names that this file gives: keys, scratch folders, the lock. */
+static bool begins(const char *name, const char *mark) {
+  return strncmp(name, mark, strlen(mark)) == 0;
+}
+
+bool bake_store_is_key(const char *name) {
+  return strlen(name) == 32 && strspn(name, "0123456789abcdef") == 32;
+}
+
+/* Names that this room gives, claims and the lock of earlier versions among them. */
 static bool is_ours(const char *name) {
-  return !strcmp(name, lock_name) || !strncmp(name, scratch_mark, strlen(scratch_mark)) ||
-         (strlen(name) == 32 && strspn(name, "0123456789abcdef") == 32);
+  static const char *const whole[] = {"bake", removal_name, done_name, "lock"};
+  for (size_t n = 0; n < sizeof whole / sizeof *whole; ++n)
+    if (!strcmp(name, whole[n])) return true;
+  return begins(name, scratch_mark) || begins(name, worker_mark) || begins(name, round_mark) ||
+         (strspn(name, "0123456789abcdef") == 32 && (!name[32] || name[32] == '.'));
 }
 
-/* Removes what begins so: all of ours but the lock, or the scratch folders of processes that
- * were killed (nobody else holds the store then). */
-static void sweep(const char *directory, const char *beginning) {
-  DIR *list = opendir(directory);
-  if (!list) return;
-  for (struct dirent *entry; (entry = readdir(list));) {
-    if (!is_ours(entry->d_name) || strncmp(entry->d_name, beginning, strlen(beginning)) != 0)
-      continue;
-    if (!strcmp(entry->d_name, lock_name)) continue;
-    char *path = files_join(directory, entry->d_name);
-    if (path) files_remove_tree(path);
-    free(path);
-  }
-  closedir(list);
+/* A batch, or what somebody else has put there. */
+static bool is_content(const char *name) {
+  return name[0] != '.' && (bake_store_is_key(name) || !is_ours(name));
 }
 
-/* Whether there is nothing but the lock. */
-static bool is_empty(const char *directory) {
+/* ---- Names in the folder ---- */
+
+static bool exists(const char *directory, const char *name) {
+  char *path = files_join(directory, name);
+  bool there = path && access(path, F_OK) == 0;
+  free(path);
+  return there;
+}
+
+static void remove_name(const char *directory, const char *name) {
+  char *path = files_join(directory, name);
+  if (path) files_remove_tree(path);
+  free(path);
+}
+
+/* Calls `act` with each name in the folder; returns how many answered true. */
+static int for_each(const char *directory, bool (*act)(const struct bake_store *, const char *),
+                    const struct bake_store *store) {
+  int count = 0;
   DIR *list = opendir(directory);
-  bool empty = true;
-  for (struct dirent *entry; list && (entry = readdir(list));)
-    empty &= entry->d_name[0] == '.' || !strcmp(entry->d_name, lock_name);
+  for (struct dirent *entry; list && (entry = readdir(list));) count += act(store, entry->d_name);
   if (list) closedir(list);
-  return empty;
+  return count;
 }
 
-/* Whether the lock that we hold is still the one in the folder: who held it before us may have
- * removed both when it was done, and somebody else made new ones. */
-static bool is_current(int lock, const char *path) {
-  struct stat held, there;
-  return fstat(lock, &held) == 0 && stat(path, &there) == 0 && held.st_ino == there.st_ino &&
-         held.st_dev == there.st_dev;
+static bool count_content(const struct bake_store *store, const char *name) {
+  (void)store;
+  return is_content(name);
 }
 
-/* F_RDLCK, F_WRLCK or F_UNLCK: false where others hold what that excludes. A record lock is the
- * process's own: one of flock() is held by the child of a fork too, until its exec, and a bake
- * that is killed just then would seem to be at work still. */
-static bool set_lock(int lock, short type) {
-  struct flock all = {.l_type = type, .l_whence = SEEK_SET};
-  return fcntl(lock, F_SETLK, &all) == 0;
+/* All of ours but what says that it is being removed, and who removes it. */
+static bool sweep_all(const struct bake_store *store, const char *name) {
+  bool own = store->worker->path && !strcmp(strrchr(store->worker->path, '/') + 1, name);
+  if (is_ours(name) && strcmp(name, removal_name) != 0 && !own) remove_name(store->directory, name);
+  return false;
 }
 
-/* Opens and locks the file once; store->lock is -1 where it has to be tried again. */
-static enum result try_lock(const char *path, bool shared, struct bake_store *store,
-                            struct error *error) {
+static bool sweep_list(const struct bake_store *store, const char *name) {
+  if (begins(name, round_mark)) remove_name(store->directory, name);
+  return false;
+}
+
+/* A scratch folder whose worker is gone, or not heard of for long. */
+static bool sweep_scratch(const struct bake_store *store, const char *name) {
+  char worker[16];
+  struct bake_worker_seen seen;
+  if (!begins(name, scratch_mark)) return false;
+  snprintf(worker, sizeof worker, "%s%.6s", worker_mark, name + strlen(scratch_mark));
+  char *path = files_join(store->directory, worker);
+  bool lost =
+      path && (!bake_worker_look(path, bake_worker_now(store->worker), &seen) || seen.forgotten);
+  if (lost) remove_name(store->directory, name);
+  free(path);
+  return lost;
+}
+
+static bool sweep_worker(const struct bake_store *store, const char *name) {
+  struct bake_worker_seen seen;
+  char *path = begins(name, worker_mark) ? files_join(store->directory, name) : NULL;
+  bool lost =
+      path && bake_worker_look(path, bake_worker_now(store->worker), &seen) && seen.forgotten;
+  if (lost) unlink(path);
+  free(path);
+  return lost;
+}
+
+/* Somebody else who is alive. */
+static bool is_other(const struct bake_store *store, const char *name) {
+  struct bake_worker_seen seen;
+  char *path = begins(name, worker_mark) ? files_join(store->directory, name) : NULL;
+  bool other = path && bake_worker_look(path, bake_worker_now(store->worker), &seen) &&
+               !seen.dead && seen.file != store->worker->file;
+  free(path);
+  return other;
+}
+
+/* ---- Coming and going ---- */
+
+static void wait_a_moment(void) {
+  nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+}
+
+/* Whether somebody alive is about to remove the store. */
+static bool is_being_removed(const struct bake_store *store) {
+  struct bake_worker_seen holder;
+  char *path = files_join(store->directory, removal_name);
+  bool held = path && bake_worker_look(path, bake_worker_now(store->worker), &holder);
+  if (held && holder.dead) unlink(path);
+  free(path);
+  return held && !holder.dead;
+}
+
+/* Joins once; *again: the folder just goes. Who removes it looks for others once `removal` is
+ * there, and who joins looks for that once its own file is: one of them sees the other. */
+static enum result try_open(struct bake_store *store, int jobs, bool *again, struct error *error) {
   enum result result = files_make_directory(store->directory, error);
   if (result != RESULT_OK) return result;
-  store->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (store->lock < 0) /* the folder may just have gone */
-    return errno == ENOENT ? RESULT_OK
-                           : result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
-  if (set_lock(store->lock, shared ? F_RDLCK : F_WRLCK)) {
-    if (is_current(store->lock, path)) return RESULT_OK;
-  } else if (errno == EAGAIN || errno == EACCES) {
-    result =
-        result_fail(error, RESULT_IO, "%s: another bake of this output is at work; wait for it",
-                    store->directory);
-  } else {
-    result = result_fail(error, RESULT_IO, "%s: cannot be locked: %s; bake on another file system",
-                         path, strerror(errno));
-  }
-  close(store->lock); /* the store is another's: closing it here removes nothing */
-  store->lock = -1;
-  return result;
+  result = bake_worker_join(store->directory, jobs, store->worker, again, error);
+  if (*again) return RESULT_OK;
+  if (result != RESULT_OK || !is_being_removed(store)) return result;
+  bake_worker_leave(store->worker);
+  wait_a_moment();
+  *again = true;
+  return RESULT_OK;
 }
 
-enum result bake_store_open(const char *output, bool shared, struct bake_store *store,
+/* Takes the right to remove the store, which only one has at a time. */
+static bool take_removal(const struct bake_store *store) {
+  enum { MOST_TRIES = 6000 };
+  char *path = files_join(store->directory, removal_name);
+  bool taken = false;
+  for (int tries = 0; path && !taken && tries < MOST_TRIES; ++tries) {
+    taken = link(store->worker->path, path) == 0;
+    if (!taken && errno != EEXIST) break; /* no store, or no links there */
+    if (!taken && is_being_removed(store)) wait_a_moment();
+  }
+  free(path);
+  return taken;
+}
+
+/* Removes what is left of a bake that is done, where nobody else is there: who comes meanwhile
+ * waits for the right to do so to be given up. */
+static void sweep_done(const struct bake_store *store) {
+  if (!bake_store_is_done(store) || bake_store_has_others(store)) return;
+  bool taken = take_removal(store);
+  if (bake_store_is_done(store) && !bake_store_has_others(store))
+    for_each(store->directory, sweep_all, store);
+  if (taken) remove_name(store->directory, removal_name);
+}
+
+enum result bake_store_open(const char *output, int jobs, struct bake_store *store,
                             struct error *error) {
-  enum { MOST_TRIES = 1000 };
-  *store = (struct bake_store){.lock = -1};
-  if (asprintf(&store->directory, "%s.partial", output) < 0) {
+  enum { MOST_TRIES = 6000 }; /* a minute */
+  *store = (struct bake_store){.worker = calloc(1, sizeof *store->worker)};
+  if (!store->worker || asprintf(&store->directory, "%s.partial", output) < 0) {
     store->directory = NULL;
     return result_no_memory(error);
   }
-  char *path = files_join(store->directory, lock_name);
-  if (!path) return result_no_memory(error);
   enum result result = RESULT_OK;
-  for (int tries = 0; result == RESULT_OK && store->lock < 0; ++tries)
+  bool again = true;
+  for (int tries = 0; result == RESULT_OK && again; ++tries) {
+    again = false;
     result = tries < MOST_TRIES
-                 ? try_lock(path, shared, store, error)
-                 : result_fail(error, RESULT_IO, "%s: others keep removing it", path);
-  free(path);
-  if (result == RESULT_OK && !shared) sweep(store->directory, scratch_mark);
-  store->fresh = result == RESULT_OK && is_empty(store->directory);
-  return result;
-}
-
-/* Whether nobody else has the store, nor gets it before it is closed. Whoever shares it lets go
- * first: of two who leave at the same time one is then alone. */
-static bool is_alone(int lock, const char *path) {
-  if (set_lock(lock, F_WRLCK)) return true;
-  set_lock(lock, F_UNLCK);
-  return set_lock(lock, F_WRLCK) && is_current(lock, path);
-}
-
-void bake_store_close(struct bake_store *store, bool finished) {
-  char *lock = store->lock >= 0 ? files_join(store->directory, lock_name) : NULL;
-  /* A store that others share stays; alone with it, nothing of ours does. */
-  if (lock && is_alone(store->lock, lock) && (finished || is_empty(store->directory))) {
-    sweep(store->directory, "");
-    unlink(lock);            /* last: without it, the next one takes the store for its own */
-    rmdir(store->directory); /* stays where somebody put something else into it */
+                 ? try_open(store, jobs, &again, error)
+                 : result_fail(error, RESULT_IO, "%s: others keep removing it", store->directory);
   }
-  if (store->lock >= 0) close(store->lock);
-  free(lock);
+  if (result != RESULT_OK) return result;
+  for_each(store->directory, sweep_scratch, store);
+  for_each(store->directory, sweep_worker, store);
+  sweep_done(store);
+  store->fresh = for_each(store->directory, count_content, store) == 0;
+  return RESULT_OK;
+}
+
+static void mark_done(const struct bake_store *store) {
+  char *path = files_join(store->directory, done_name);
+  int file = path ? open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666) : -1;
+  if (file >= 0) close(file);
+  free(path);
+}
+
+void bake_store_close(struct bake_store *store, enum bake_store_end end) {
+  if (store->worker && store->worker->path) {
+    if (end == BAKE_STORE_DONE) mark_done(store);
+    bool taken = take_removal(store);
+    /* Lets go first: of two who leave at the same time one is then alone. */
+    unlink(store->worker->path);
+    bool last = for_each(store->directory, is_other, store) == 0 &&
+                (end == BAKE_STORE_DROPPED || bake_store_is_done(store) ||
+                 (end == BAKE_STORE_KEPT && for_each(store->directory, count_content, store) == 0));
+    if (last) for_each(store->directory, sweep_all, store);
+    if (taken) remove_name(store->directory, removal_name); /* last: who comes waits for it */
+    if (last) rmdir(store->directory); /* stays where somebody put something else into it */
+  }
+  if (store->worker) bake_worker_leave(store->worker);
+  free(store->worker);
   free(store->directory);
-  *store = (struct bake_store){.lock = -1};
+  *store = (struct bake_store){0};
+}
+
+bool bake_store_is_done(const struct bake_store *store) {
+  return exists(store->directory, done_name);
+}
+
+bool bake_store_has_others(const struct bake_store *store) {
+  return for_each(store->directory, is_other, store) > 0;
+}
+
+void bake_store_drop_lists(const struct bake_store *store) {
+  for_each(store->directory, sweep_list, store);
 }
 
 void bake_store_key(char key[33], ...) {
@@ -148,12 +249,15 @@ char *bake_store_path(const struct bake_store *store, const char *key) {
   return files_join(store->directory, key);
 }
 
-enum result bake_store_scratch(const struct bake_store *store, char **scratch,
+enum result bake_store_scratch(const struct bake_store *store, const char *key, char **scratch,
                                struct error *error) {
-  /* Not by process number: machines and containers that share the folder have the same. */
-  *scratch = files_join(store->directory, "scratch.XXXXXX");
-  if (!*scratch) return result_no_memory(error);
-  if (mkdtemp(*scratch)) return RESULT_OK;
+  const char *id = store->worker->name.id;
+  if (asprintf(scratch, "%s/%s%s.%s", store->directory, scratch_mark, id, key ? key : "XXXXXX") <
+      0) {
+    *scratch = NULL;
+    return result_no_memory(error);
+  }
+  if (key ? mkdir(*scratch, 0777) == 0 : mkdtemp(*scratch) != NULL) return RESULT_OK;
   enum result result =
       result_fail(error, RESULT_IO, "%s: cannot make this folder: %s", *scratch, strerror(errno));
   free(*scratch);

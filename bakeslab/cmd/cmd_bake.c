@@ -94,7 +94,12 @@ static const struct argp_option options[] = {
     {"jobs", 'j', "N", 0, "POV-Ray processes at a time (default: one a processor)", 4},
     {"shard", KEY(shard), "K/N", 0,
      "bake only part K of N (from 1) into SLAB.partial; a run without --shard bakes what is "
-     "missing and writes the slab",
+     "missing and writes the slab. For machines that share no folder: those that do need no shards",
+     4},
+    {"round", KEY(wave), "all|pilot|rest", 0,
+     "which rounds a shard bakes: the pilot, by which the rest is planned; the rest, once all "
+     "shards' pilots are in SLAB.partial (bakeslab gather); or all (the default), for which each "
+     "shard bakes the whole pilot itself",
      4},
     {"povray", KEY(povray), "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
     {"sandbox", KEY(sandbox), 0, 0,
@@ -132,6 +137,15 @@ static const char doc[] =
     "command again to go on from there. Where the script parts its bulbs into channels "
     "(Canned_Channel), the slab has each page once for each of them, and scenes dim them apart.\n"
     "\n"
+    "Any number of processes with the same command, on one machine or on several that share the "
+    "folder, by NFS too, help each other: each batch is baked by one of them, what a dead one had "
+    "in "
+    "hand is taken over (at once on its own machine, else after a minute), who comes late helps, "
+    "and "
+    "one writes the slab, for which the others wait. `bakeslab status` tells how far they are. "
+    "Machines without a common folder bake --shard K/N, in waves by --round, and `bakeslab gather` "
+    "brings their folders together.\n"
+    "\n"
     "The samples are the same, bit for bit, for any --jobs and --shard. With --uniform or "
     "--centre they are the same for any --camera too. Otherwise each view, or with transposed "
     "each direction, has its own offsets of rays: mesh and perspective give the same samples, "
@@ -147,8 +161,7 @@ static const char doc[] =
     "  bakeslab bake lamp.pov -o fine.tif --st 128 --rays 64 --jobs 8\n"
     "  bakeslab bake lamp.pov -o lamp.tif --effects probe --window auto \\\n"
     "    --tolerance 0.02\n"
-    "  for k in 1 2 3; do bakeslab bake lamp.pov -o big.tif --shard $k/3 & done; \\\n"
-    "    wait; bakeslab bake lamp.pov -o big.tif\n";
+    "  for k in 1 2 3; do bakeslab bake lamp.pov -o big.tif --jobs 1 & done; wait\n";
 
 static void parse_shard(struct argp_state *state, const char *text, struct bake_options *bake) {
   int k, n, used = 0;
@@ -188,6 +201,7 @@ static const struct value values[] = {
     {KEY(form), VALUE_WORD, BAKE(form), 0, 0},
     {'j', VALUE_WHOLE, BAKE(jobs), 1, 1024},
     {KEY(povray), VALUE_TEXT, BAKE(povray), 0, 0},
+    {KEY(wave), VALUE_WORD, BAKE(wave), BAKE_WAVE_ALL, 0},
     {KEY(sandbox), VALUE_FLAG, BAKE(sandbox), 0, 0},
     {KEY(dry_run), VALUE_FLAG, BAKE(dry_run), 0, 0},
     {KEY(strict), VALUE_FLAG, BAKE(strict), 0, 0},
@@ -220,6 +234,8 @@ static error_t parse_option(int key, char *text, struct argp_state *state) {
   case ARGP_KEY_END:
     if (!bake->lamp) argp_error(state, "give a lamp script");
     if (!bake->output) argp_error(state, "give -o SLAB");
+    if (bake->wave != BAKE_WAVE_ALL && bake->shards == 1)
+      argp_error(state, "--round: only with --shard K/N, of more than one");
     return 0;
   default:
     return values_take(values, options, key, text, arguments, state);
@@ -261,6 +277,23 @@ static void set_sizes(struct bake_options *bake) {
   }
 }
 
+/* A shard is done, or has to wait for others. */
+static void report_shard(const struct bake_options *bake, const struct bake_report *report) {
+  int k = bake->shard + 1, n = bake->shards;
+  if (report->waits)
+    fprintf(
+        stderr,
+        "%s: shard %d/%d of pilot %d is done; bring the folders of all shards together (bakeslab "
+        "gather), and go on with --round %s\n",
+        bake->output, k, n, report->pilot, report->more_pilots ? "pilot again" : "rest");
+  else if (bake->wave == BAKE_WAVE_PILOT)
+    fprintf(stderr, "%s: the pilot is whole; go on with --shard %d/%d --round rest\n", bake->output,
+            k, n);
+  else
+    fprintf(stderr, "%s: shard %d/%d is done; the run without --shard assembles the slab\n",
+            bake->output, k, n);
+}
+
 static void report_done(const struct bake_options *bake, const struct bake_report *report) {
   if (report->assembled && bake->tolerance > 0)
     cli_note("%s: note: the slab's own error is about %.2g (tolerance %g)", bake->output,
@@ -274,9 +307,12 @@ static void report_done(const struct bake_options *bake, const struct bake_repor
   if (report->assembled)
     fprintf(stderr, "%s: %d batches, %d of them found finished; %.3g rays, %.1f CPU s of POV-Ray\n",
             bake->output, report->batches, report->found, report->rays, report->cpu);
+  else if (report->by_others)
+    fprintf(stderr,
+            "%s: was written by another bake of it; %.3g rays, %.1f CPU s of POV-Ray here\n",
+            bake->output, report->rays, report->cpu);
   else
-    fprintf(stderr, "%s: shard %d/%d is done; the run without --shard assembles the slab\n",
-            bake->output, bake->shard + 1, bake->shards);
+    report_shard(bake, report);
 }
 
 static void set_signals(double timeout) {

@@ -14,11 +14,13 @@ int cmd_check(int argc, char **argv);
 int cmd_convert(int argc, char **argv);
 int cmd_diff(int argc, char **argv);
 int cmd_export(int argc, char **argv);
+int cmd_gather(int argc, char **argv);
 int cmd_import(int argc, char **argv);
 int cmd_include(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_lookup(int argc, char **argv);
 int cmd_projector(int argc, char **argv);
+int cmd_status(int argc, char **argv);
 
 /* The names of precisions, in their order, for an option's words (values.h). */
 #define CLI_PRECISIONS "logluv|float|half"

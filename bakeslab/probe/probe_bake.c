@@ -34,6 +34,7 @@ static struct probe_bake_run *make_run(const struct bake_work *work, const struc
   struct probe_bake_run *run = calloc(1, sizeof *run);
   if (!run) return NULL;
   run->work = *work;
+  run->work.plan[0] = 0;
   run->effects = *effects;
   run->pages = pages;
   run->work.effort =

@@ -1,11 +1,15 @@
 /* fake_povray.c - stands in for POV-Ray where a test bakes some thousand times: frames of the
  * size that render.ini asks for, whose pixels follow from the scene's text, so that a frame of
  * another scene is noticed. It reads the lamp script, as the bake checks, and declares one slab.
- * FAKE_SECONDS: how long a scene takes. */
+ * FAKE_SECONDS: how long a scene takes; FAKE_LOG: a file that gets a line for each, its width and
+ * height; FAKE_VERSION: instead of 3.7.0.fake. */
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/syscall.h>
 #include <time.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include "file/slab_exr.h"
@@ -44,9 +48,19 @@ static void paint(struct picture *picture, uint64_t seed) {
                                   : (float)(XXH64(&k, sizeof k, seed) % 1024) / 1024;
 }
 
+/* By the kernel's call: what a script writes by the C library's is noticed. */
+static void log_work(const struct picture *picture) {
+  const char *path = getenv("FAKE_LOG");
+  if (!path) return;
+  int file = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND, 0666);
+  dprintf(file, "%d %d\n", picture->width, picture->height);
+  close(file);
+}
+
 int main(int argc, char **argv) {
   if (argc > 1 && !strcmp(argv[1], "--version")) {
-    fputs("POV-Ray 3.7.0.fake\n", stderr);
+    const char *version = getenv("FAKE_VERSION");
+    fprintf(stderr, "POV-Ray %s\n", version ? version : "3.7.0.fake");
     return 0;
   }
   char *ini = read_text("render.ini"), *scene = read_text("scene.pov");
@@ -72,6 +86,7 @@ int main(int argc, char **argv) {
     failed |= !out || fputs(declared, out) < 0;
     if (out) failed |= fclose(out) != 0;
   }
+  log_work(&picture);
   picture_free(&picture);
   free(ini);
   free(scene);

@@ -62,6 +62,10 @@ stands() {
   oiiotool --create 4x4 3 --fill:color=2,1,1 4x4 -d float -o view_01_00.exr
   printf '{"fl_x": 9, "frames": [{"file_path": "view_00_00", "transform_matrix": [[1,0,0,0],[0,-1,0,0],[0,0,-1,-1]]},
     {"file_path": "view_01_00", "transform_matrix": [[1,0,0,0.1],[0,-1,0,0.1],[0,0,-1,-1]]}]}' >transforms.json
+  mkdir one two
+  bakeslab bake parabolic.pov -o one/night.tif --uv 2 --st 4 --rays 1 --shard 1/2 -q
+  bakeslab bake parabolic.pov -o two/night.tif --uv 2 --st 4 --rays 1 --shard 2/2 -q
+  cp -r one/night.tif.partial .
   for program in "$BAKESLAB" "$RENDERSLAB"; do
     for command in $(commands "$program"); do
       examples "$program" "$command" >lines
