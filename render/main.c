@@ -6,6 +6,7 @@
 static const struct cli_command commands[] = {
     {"irradiance", cmd_irradiance, "irradiance of receivers read from stdin"},
     {"image", cmd_image, "picture of an OBJ, glTF or PLY scene"},
+    {"join", cmd_join, "one picture of the tiles that several processes rendered"},
     {"pov", cmd_pov, "the same view as a POV-Ray scene"},
     {"view", cmd_view, "a scene in a window, to look around and move lights"},
     {"tradeoff", cmd_tradeoff, "what accuracy costs in time, for a scene"},

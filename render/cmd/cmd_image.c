@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/numbers.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/values.h"
@@ -14,6 +13,7 @@
 #include "cmd/world.h"
 #include "picture/image.h"
 #include "picture/image_error.h"
+#include "picture/picture_tile.h"
 #include "shadow/occlusion.h"
 
 struct arguments {
@@ -23,6 +23,7 @@ struct arguments {
   double time_limit; /* seconds; 0: none */
   double start;      /* of the process, on progress_now's clock */
   bool no_shadows;
+  int tile, tiles; /* from 1; 0: the whole picture */
 };
 
 /* Seconds that it takes to free all and to end. */
@@ -33,7 +34,8 @@ enum {
   OPTION_PREVIEW,
   OPTION_EXPOSURE,
   OPTION_NO_SHADOWS,
-  OPTION_TIME_LIMIT
+  OPTION_TIME_LIMIT,
+  OPTION_TILE
 };
 
 static const struct argp_option options_list[] = {
@@ -56,6 +58,11 @@ static const struct argp_option options_list[] = {
      "The best picture that S seconds allow from the command's start to its end, down to "
      "--tolerance; says how good it got",
      0},
+    {"tile", OPTION_TILE, "K/N", 0,
+     "Render part K of N only (from 1), whole rows of 8 pixels; renderslab join makes one picture "
+     "of "
+     "all parts, the same to the last bit",
+     0},
     {"no-shadows", OPTION_NO_SHADOWS, NULL, 0, "Light passes through the mesh", 0},
     {0}};
 
@@ -68,21 +75,26 @@ static const struct value values[] = {
     {OPTION_NO_SHADOWS, VALUE_FLAG, ARGUMENT(no_shadows), 0, 0},
     {0}};
 
-static void check_output(const char *path, struct argp_state *state) {
-  if (!path)
-    argp_error(state, "no output given; add -o OUT.exr");
-  else if (strcmp(path, "-") && !picture_files_end(path, ".exr") &&
-           !picture_files_end(path, ".png"))
-    argp_error(state, "-o %s: must end in .exr or .png", path);
+/* What a part of a picture cannot be or have. */
+static void check_tile(const struct arguments *arguments, struct argp_state *state) {
+  int first, end;
+  if (arguments->tiles == 0) return;
+  if (arguments->time_limit > 0 ||
+      gather_methods[arguments->world.options.method].sum == METHOD_OPENGL)
+    argp_error(state, "--tile: not with --time-limit or --method gl");
+  if (arguments->files.preview || !picture_files_end(arguments->files.output, ".exr"))
+    argp_error(state, "--tile: writes an .exr; preview the whole picture by renderslab join");
+  if (!picture_tile_rows(arguments->world.view.size[1], arguments->tile, arguments->tiles, &first,
+                         &end))
+    argp_error(state, "--tile %d/%d: the picture has fewer rows of %d pixels", arguments->tile,
+               arguments->tiles, IMAGE_TILE);
 }
 
-static void parse_exposure(const char *value, struct picture_files *files,
-                           struct argp_state *state) {
-  static const double most = 100; /* floats end not far beyond */
-  files->exposed = strcmp(value, "auto") != 0;
-  if (files->exposed && (!numbers_real(value, 1, &files->exposure) || files->exposure < -most ||
-                         files->exposure > most))
-    argp_error(state, "--exposure %s: must be auto or a number from %g to %g", value, -most, most);
+static void parse_tile(struct argp_state *state, const char *text, struct arguments *arguments) {
+  int used = 0;
+  if (sscanf(text, "%d/%d%n", &arguments->tile, &arguments->tiles, &used) != 2 || text[used] ||
+      arguments->tile < 1 || arguments->tile > arguments->tiles)
+    argp_error(state, "--tile %s: not a part such as 1/4", text);
 }
 
 static error_t parse(int key, char *value, struct argp_state *state) {
@@ -93,13 +105,17 @@ static error_t parse(int key, char *value, struct argp_state *state) {
     state->child_inputs[1] = &arguments->world.view;
     return 0;
   case OPTION_EXPOSURE:
-    parse_exposure(value, &arguments->files, state);
+    picture_files_expose(value, &arguments->files, state);
     return 0;
   case ARGP_KEY_SUCCESS:
     if (arguments->time_limit > 0 &&
         gather_methods[arguments->world.options.method].sum == METHOD_OPENGL)
       argp_error(state, "--time-limit: not with --method gl, which has one pass; use --level");
-    check_output(arguments->files.output, state);
+    picture_files_check(arguments->files.output, state);
+    check_tile(arguments, state);
+    return 0;
+  case OPTION_TILE:
+    parse_tile(state, value, arguments);
     return 0;
   default:
     return values_take(values, options_list, key, value, arguments, state);
@@ -230,6 +246,28 @@ static enum result estimate_error(const struct arguments *arguments,
   return picture->about ? RESULT_OK : result_no_memory(error);
 }
 
+/* A part of the picture, in a file of its own. */
+static enum result make_tile(struct arguments *arguments, struct image_settings *settings,
+                             struct picture *picture, struct stats *stats, struct error *error) {
+  struct picture_tile tile = {.number = arguments->tile,
+                              .count = arguments->tiles,
+                              .width = settings->shade.width,
+                              .height = settings->shade.height,
+                              .luminance = arguments->files.luminance};
+  double start = progress_now();
+  picture_tile_key(settings, tile.key);
+  picture_tile_rows(tile.height, tile.number, tile.count, &settings->first_row, &settings->end_row);
+  tile.top = settings->first_row * IMAGE_TILE;
+  tile.end =
+      settings->end_row * IMAGE_TILE < tile.height ? settings->end_row * IMAGE_TILE : tile.height;
+  enum result result = render(arguments, settings, picture, stats, error);
+  if (result != RESULT_OK) return result;
+  tile.counts = stats->counts;
+  tile.seconds = progress_now() - start;
+  stats_phase(stats, "write");
+  return picture_tile_write(arguments->files.output, &tile, picture, error);
+}
+
 /* The error is estimated before the picture is written, which tells it; but where time is limited,
  * after that. */
 static enum result make(struct arguments *arguments, struct picture *picture, struct stats *stats,
@@ -237,7 +275,7 @@ static enum result make(struct arguments *arguments, struct picture *picture, st
   const struct world *world = &arguments->world;
   const bool shadows = !arguments->no_shadows, limited = arguments->time_limit > 0;
   const struct gl_sum_settings gl = world_gl(world, shadows);
-  const struct image_settings settings = {
+  struct image_settings settings = {
       .shade = world_shade(world),
       .gather = world_gather(world, shadows),
       .gl = gather_methods[world->options.method].sum == METHOD_OPENGL ? &gl : NULL,
@@ -245,6 +283,7 @@ static enum result make(struct arguments *arguments, struct picture *picture, st
       .threads = world->options.threads,
       .until = limited ? find_end : NULL,
       .until_context = arguments};
+  if (arguments->tiles > 0) return make_tile(arguments, &settings, picture, stats, error);
   enum result result = render(arguments, &settings, picture, stats, error);
   if (result == RESULT_OK && world->options.stats && !limited)
     result = estimate_error(arguments, &settings, picture, stats, error);
@@ -276,6 +315,8 @@ static const char help_text[] =
     "Renders an OBJ, glTF or PLY scene lit by light slabs. Meshes are mirrored in z into POV-Ray's "
     "coordinates. A surface shows emission + diffuse E/pi and a highlight, as in POV-Ray; where "
     "the camera looks into a lamp it sees the slab.\n\n"
+    "With --tile a picture is shared out to several processes or machines: each renders some rows, "
+    "and renderslab join puts them together.\n\n"
     "--stats tells the picture's error against the lamps themselves, too: RMS over mean of the "
     "lamps' light, by the noise, resolution and LogLuv rounding of the slabs, by the sum, by the "
     "edges of shadows, and of all together. An EXR then has it in its attribute \"error\". It is "

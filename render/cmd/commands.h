@@ -4,6 +4,7 @@
 
 int cmd_image(int argc, char **argv);
 int cmd_irradiance(int argc, char **argv);
+int cmd_join(int argc, char **argv);
 int cmd_pov(int argc, char **argv);
 int cmd_tradeoff(int argc, char **argv);
 int cmd_view(int argc, char **argv);

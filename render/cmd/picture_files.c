@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/numbers.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "file/slab_exr.h"
@@ -18,6 +19,23 @@ bool picture_files_end(const char *path, const char *ending) {
 
 /* cd/m2 that are white at EV 0. */
 static const double white_at_zero = 78 / (0.65 * 100);
+
+void picture_files_check(const char *path, struct argp_state *state) {
+  if (!path)
+    argp_error(state, "no output given; add -o OUT.exr");
+  else if (strcmp(path, "-") && !picture_files_end(path, ".exr") &&
+           !picture_files_end(path, ".png"))
+    argp_error(state, "-o %s: must end in .exr or .png", path);
+}
+
+void picture_files_expose(const char *value, struct picture_files *files,
+                          struct argp_state *state) {
+  static const double most = 100; /* floats end not far beyond */
+  files->exposed = strcmp(value, "auto") != 0;
+  if (files->exposed && (!numbers_real(value, 1, &files->exposure) || files->exposure < -most ||
+                         files->exposure > most))
+    argp_error(state, "--exposure %s: must be auto or a number from %g to %g", value, -most, most);
+}
 
 static enum result write_png(const char *path, const struct picture_files *files,
                              const struct picture *picture, struct error *error) {

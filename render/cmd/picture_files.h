@@ -2,6 +2,7 @@
 #ifndef PICTURE_FILES_H
 #define PICTURE_FILES_H
 
+#include <argp.h>
 #include <stdbool.h>
 
 #include "base/picture.h"
@@ -17,6 +18,12 @@ struct picture_files {
 
 /* Does the path have a name and this ending? */
 bool picture_files_end(const char *path, const char *ending);
+
+/* For argp: complains of an output that is not there, or neither EXR nor PNG. */
+void picture_files_check(const char *path, struct argp_state *state);
+
+/* For argp: what --exposure says, "auto" or an EV. */
+void picture_files_expose(const char *value, struct picture_files *files, struct argp_state *state);
 
 /* Seconds that writing a picture takes whose pixels are the same in blocks of step x step, by
  * writing a small one, which is not kept, to where the files will be. */

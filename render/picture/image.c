@@ -50,6 +50,7 @@ struct image {
   struct refine refine;     /* where there are to be more rays than one a pixel */
   struct refine_rays *rays; /* [threads] */
   int columns, rows;        /* of tiles */
+  int first_row, end_row;   /* of tiles that are rendered */
   struct tile *tiles;       /* [columns x rows] */
   struct place *order;      /* the same number, of which a pass of larger steps needs fewer */
 };
@@ -174,9 +175,10 @@ static int by_error(const void *left, const void *right) {
 static void set_order(struct image *image) {
   struct pass *pass = &image->pass;
   pass->columns = divide_up(image->columns, pass->step);
-  pass->count = pass->columns * divide_up(image->rows, pass->step);
+  int first = image->first_row / pass->step * pass->columns;
+  pass->count = pass->columns * divide_up(image->end_row, pass->step) - first;
   for (int k = 0; k < pass->count; ++k)
-    image->order[k] = (struct place){pass->step > 1 ? 0 : image->tiles[k].error, k};
+    image->order[k] = (struct place){pass->step > 1 ? 0 : image->tiles[first + k].error, first + k};
   if (pass->step == 1) qsort(image->order, (size_t)pass->count, sizeof *image->order, by_error);
 }
 
@@ -279,10 +281,27 @@ static bool set_next(struct image *image, double seconds) {
   return true;
 }
 
+/* The first pass over a row of tiles beside those that are rendered: pixels look at their
+ * neighbours where they want more rays. It is not counted. */
+static enum result run_beside(struct image *image, int row, struct error *error) {
+  const int first = image->first_row, end = image->end_row;
+  struct image_report own = {0};
+  if (!image->refine.seen || row < 0 || row >= image->rows) return RESULT_OK;
+  image->first_row = row;
+  image->end_row = row + 1;
+  enum result result = run_pass(image, &own, error);
+  image->first_row = first;
+  image->end_row = end;
+  return result;
+}
+
 static enum result run_passes(struct image *image, struct image_report *report,
                               struct error *error) {
   double start;
   set_first(image);
+  enum result beside = run_beside(image, image->first_row - 1, error);
+  if (beside == RESULT_OK) beside = run_beside(image, image->end_row, error);
+  if (beside != RESULT_OK) return beside;
   do {
     start = progress_now();
     enum result result = run_pass(image, report, error);
@@ -294,7 +313,7 @@ static enum result run_passes(struct image *image, struct image_report *report,
 static void sum_up(const struct image *image, struct image_report *report) {
   report->best_tolerance = INFINITY;
   report->worst_step = 1;
-  for (int k = 0; k < image->columns * image->rows; ++k) {
+  for (int k = image->columns * image->first_row; k < image->columns * image->end_row; ++k) {
     const struct tile *tile = &image->tiles[k];
     report->error = fmax(report->error, tile->relative_error);
     report->worst_tolerance = fmax(report->worst_tolerance, tile->tolerance);
@@ -345,6 +364,8 @@ static enum result render_tiles(const struct image_settings *settings, struct pi
                         .picture = picture,
                         .columns = divide_up(picture->width, IMAGE_TILE),
                         .rows = divide_up(picture->height, IMAGE_TILE)};
+  image.first_row = settings->first_row;
+  image.end_row = settings->end_row > 0 ? settings->end_row : image.rows;
   enum result result = create(&image, error);
   if (result == RESULT_OK) result = run_passes(&image, report, error);
   if (result == RESULT_OK) sum_up(&image, report);

@@ -24,6 +24,8 @@ struct image_settings {
   const struct gl_sum_settings *gl; /* for the method gl, which takes the place of `gather` */
   int samples;                      /* N, 1..IMAGE_MOST_SAMPLES; method gl: N x N everywhere */
   int threads;                      /* >= 1 */
+  int first_row, end_row;           /* of tiles, to render these alone; 0, 0: all. Neither with the
+                                       method gl nor with a time to end */
   tiles_progress *progress;         /* may be NULL */
   void *progress_context;
   /* When a picture in which up to step x step pixels share a ray must be there, on progress_now's
@@ -44,7 +46,8 @@ struct image_report {
 /* With a time to end, the first pass has a ray for step x step pixels. */
 int image_first_step(int width, int height);
 
-/* Allocates and fills the picture and its errors; picture_free frees it.
+/* Allocates and fills the picture and its errors; picture_free frees it. Pixels of rows that are
+ * not rendered stay 0; the others are those of the whole picture, to the last bit.
  *
  * With a time to end, the whole picture is first made with a few hundred rays and a tolerance of
  * 0.3, then with ever more rays, up to one a pixel; then tile by tile, those with the largest
