@@ -333,7 +333,7 @@ TEST(test_tolerance) {
   double best_error = irradiance_error(&best, truth_of(KNOWN_LOBE, all)->factor);
   assert_true(slab_sample_count(&few) < slab_sample_count(&best));
   assert_true(loose.irradiance <= 0.1 && tight.irradiance < loose.irradiance);
-  assert_true(tight.irradiance > 1e-4 && few_error < 0.1);
+  assert_true(tight.irradiance > 1e-4 && few_error < 0.1 && best_error < 0.05);
   assert_memory_equal(loose.samples, few.samples, sizeof few.samples);
   check_flux(&few, loose.flux);
   check_flux(&best, tight.flux);
