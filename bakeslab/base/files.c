@@ -69,6 +69,22 @@ enum result files_write(const char *directory, const char *name, const char *tex
   return result;
 }
 
+int files_spool_stdin(void) {
+  FILE *file = tmpfile();
+  if (!file) return -1;
+  char buffer[1 << 16];
+  ssize_t got;
+  bool ok = true;
+  while (ok && (got = read(STDIN_FILENO, buffer, sizeof buffer)) != 0)
+    ok = got > 0 ? fwrite(buffer, 1, (size_t)got, file) == (size_t)got : errno == EINTR;
+  int fd = ok && fflush(file) == 0 ? dup(fileno(file)) : -1;
+  int why = errno;
+  fclose(file);
+  if (fd >= 0) lseek(fd, 0, SEEK_SET);
+  errno = why;
+  return fd;
+}
+
 enum result files_make_directory(const char *path, struct error *error) {
   while (mkdir(path, 0777) != 0) {
     struct stat status;

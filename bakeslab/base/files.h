@@ -20,6 +20,10 @@ char *files_read(const char *directory, const char *name);
 enum result files_write(const char *directory, const char *name, const char *text,
                         struct error *error);
 
+/* Standard input, which cannot be sought in, as an unnamed file: its descriptor, at the start, or
+ * -1 with errno set. */
+int files_spool_stdin(void);
+
 /* Makes a folder; one that is there already is fine. */
 enum result files_make_directory(const char *path, struct error *error);
 

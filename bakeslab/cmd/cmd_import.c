@@ -1,7 +1,10 @@
 /* cmd_import.c - bakeslab import: light that was measured, or simulated elsewhere, as a slab. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/files.h"
 #include "base/numbers.h"
 #include "base/output.h"
 #include "cmd/slab_options.h"
@@ -86,11 +89,12 @@ static const char doc[] =
     "Makes a light slab from light that was measured, or simulated elsewhere. The kind of the "
     "files is found from their content: IES LM-63, EULUMDAT; TM-25, Zemax binary source files, "
     "rays as text; pictures of a lamp with the places of their cameras (transforms.json). --views "
-    "takes an array of pictures."
+    "takes an array of pictures. A FILE - is standard input."
     "\v"
     "Photometric files (IES LM-63 of 1986 to 2019, EULUMDAT) give a slab in metres, in cd/m2. "
     "Gamma 0 is -y, C0 is +x, C90 is +z; of type B, H = V = 0 is -y; of type A it is +x, and V = "
-    "90 is +y.\n"
+    "90 is +y, and an opening that the file lays flat faces +x. In IES, too, commas may be decimal "
+    "points: where numbers with commas between them do not add up.\n"
     "\n"
     "Ray files give a slab in metres, in W/(sr m2) where their rays carry watts, in cd/m2 where "
     "they carry lumens: TM-25 (.tm25ray), Zemax binary source files (.dat, .sdf), and text, a "
@@ -221,6 +225,22 @@ static enum slab_precision precision_for(const struct import_light *light,
   return precision;
 }
 
+/* Standard input is read several times, as files are: it becomes one, and is called by its name. */
+static enum result take_stdin(struct arguments *arguments, struct error *error) {
+  bool taken = false;
+  for (int k = 0; k < arguments->file_count && !arguments->wish.views; ++k) {
+    if (strcmp(arguments->files[k], "-") != 0) continue;
+    if (taken) return result_fail(error, RESULT_BAD, "-: standard input can be read only once");
+    int fd = files_spool_stdin();
+    if (fd < 0 || dup2(fd, STDIN_FILENO) < 0)
+      return result_fail(error, RESULT_IO, "stdin: cannot be read: %s", strerror(errno));
+    close(fd);
+    arguments->files[k] = "/dev/stdin";
+    taken = true;
+  }
+  return RESULT_OK;
+}
+
 /* Of the units of length, in the order of --unit's words. */
 static const double metres[] = {1, 0.001, 0.01, 0.0254, 0.3048};
 
@@ -238,6 +258,7 @@ static enum result run(void *input, struct error *error) {
   enum result result = output_check(&arguments->output, 1, wish->files, wish->file_count, error);
   if (result == RESULT_OK)
     result = slab_file_check_target(arguments->output, arguments->precision, error);
+  if (result == RESULT_OK) result = take_stdin(arguments, error);
   if (result == RESULT_OK) result = import_files(wish, cli_command_line(), &light, error);
   if (result == RESULT_OK)
     result = slab_file_write(arguments->output, light.slabs, light.count,

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/files.h"
 #include "file/slab_exr.h"
 #include "file/slab_json.h"
 #include "file/slab_raster.h"
@@ -34,23 +35,6 @@ struct slab_file {
 
 static struct slab_raster *raster_of(const struct slab_file *file, int page) {
   return file->tiff ? slab_tiff_page(file->tiff, page) : slab_exr_part(file->exr, page);
-}
-
-/* Standard input cannot be sought in: it goes to an unnamed file first. */
-static int spool_stdin(void) {
-  FILE *file = tmpfile();
-  if (!file) return -1;
-  char buffer[1 << 16];
-  ssize_t got;
-  bool ok = true;
-  while (ok && (got = read(STDIN_FILENO, buffer, sizeof buffer)) != 0)
-    ok = got > 0 ? fwrite(buffer, 1, (size_t)got, file) == (size_t)got : errno == EINTR;
-  int fd = ok && fflush(file) == 0 ? dup(fileno(file)) : -1;
-  int why = errno;
-  fclose(file);
-  if (fd >= 0) lseek(fd, 0, SEEK_SET); /* libtiff reads from where it stands */
-  errno = why;
-  return fd;
 }
 
 static enum result recognise(int fd, const char *path, bool *exr, struct error *error) {
@@ -114,7 +98,7 @@ enum result slab_file_open(const char *path, struct slab_file **out, struct erro
   bool piped = !strcmp(path, "-"), exr = false;
   if (piped) path = "stdin";
   *out = NULL;
-  int fd = piped ? spool_stdin() : open(path, O_RDONLY | O_CLOEXEC);
+  int fd = piped ? files_spool_stdin() : open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0) return result_fail(error, RESULT_IO, "%s: %s", path, strerror(errno));
   struct slab_file *file = calloc(1, sizeof *file);
   if (file) file->path = strdup(path);

@@ -134,9 +134,58 @@ bad() {
     bad word.ldt 'line '
   done
   ies factor.ies lumens='1 1000 0'
-  bad factor.ies 'multiply to 0'
+  bad factor.ies 'line 4: the candela multiplier is 0'
+  ies factor.ies factors='0 1 20'
+  bad factor.ies 'line 5: the ballast factor is 0'
   ldt flux.ldt flux=0
   bad flux.ldt 'have no luminous flux'
+}
+
+@test "numbers that no lamp has are refused where they stand" {
+  ies most.ies candela='100 1e39 10 100 60 0'
+  bad most.ies 'line 8: candela values: 1e+39 is no lamp'
+  ies most.ies lumens='1 1000 1e14'
+  bad most.ies 'line 4: intensities of 1e+16 cd are no lamp'
+  ies least.ies size='1e-30 .3 0'
+  bad least.ies "line 4: an opening of 1e-30 x 0.3 x 0 m is no lamp's"
+  ies many.ies rest='
+1 2 3'
+  bad many.ies 'line 10: 3 numbers too many'
+}
+
+@test "commas: between numbers, or decimal where those do not add up" {
+  ies commas.ies candela='100,70,10, 100 , 60,0' rows='0,45,90'
+  run -0 --separate-stderr "$BAKESLAB" import commas.ies -o commas.tif --uv 2 --st 8
+  [[ $stderr != *"decimal points"* ]]
+  ies point.ies candela='100.5 70 10 100 60 0.5' size='0.2 0.3 0'
+  ies decimal.ies candela='100,5 70 10 100 60 0,5' size='0,2 0,3 0'
+  "$BAKESLAB" import point.ies -o point.exr --name lamp --uv 2 --st 8 -q
+  run -0 --separate-stderr "$BAKESLAB" import decimal.ies -o decimal.exr --name lamp --uv 2 --st 8
+  [[ $stderr == *"decimal.ies: note: its commas are read as decimal points"* ]]
+  "$BAKESLAB" diff point.exr decimal.exr
+  ies cut.ies candela='100,5 70 10 100 60' size='0,2 0,3 0'
+  bad cut.ies 'line 9: ' 'cut off'
+}
+
+@test "standard input is a file like others" {
+  ies lamp.ies
+  "$BAKESLAB" import lamp.ies -o file.exr --name lamp --uv 2 --st 8 -q
+  # shellcheck disable=SC2002 # a pipe
+  cat lamp.ies | "$BAKESLAB" import - -o pipe.exr --name lamp --uv 2 --st 8 -q
+  "$BAKESLAB" diff file.exr pipe.exr
+  refuses 1 '/dev/stdin: the file is empty' -- "$BAKESLAB" import - -o out.exr
+  [ ! -e out.exr ]
+}
+
+@test "an opening of type A that the file lays flat faces the light; a tilt of EULUMDAT is told" {
+  ies a.ies counts='3 2 3 2' rows='-90 0 90' planes='0 90' candela='0 100 0 0 0 0'
+  run -0 --separate-stderr "$BAKESLAB" import a.ies -o a.exr --uv 2 --st 8
+  [[ $stderr == *"its opening, flat in the file, faces that way, 0.2 m wide and 0.3 m high"* ]]
+  "$BAKESLAB" info --json a.exr | jq -e '(.pages | length) == 1 and .pages[0].normal == [1, 0, 0]'
+  ldt tilt.ldt
+  awk 'NR == 25 { $0 = "15\r" } { print }' tilt.ldt >tilted.ldt
+  run -0 --separate-stderr "$BAKESLAB" import tilted.ldt -o tilted.exr --uv 2 --st 8
+  [[ $stderr == *"it was tilted by 15 degrees when it was measured"* ]]
 }
 
 @test "angles that leave out a part of the directions are told" {
@@ -174,6 +223,9 @@ bad() {
   printf '1\n3\n0 45 90\n1 .9 .8\n' >tilt.txt
   run -0 --separate-stderr "$BAKESLAB" import tilt.ies -o tilt.tif --uv 2 --st 8
   [[ $stderr == *tilt* ]]
+  mv tilt.txt Tilt.TXT
+  run -0 "$BAKESLAB" import tilt.ies -o tilt.tif --uv 2 --st 8
+  rm Tilt.TXT
   printf '1\n3\n0 90 45\n1 .9 .8\n' >tilt.txt
   bad tilt.ies 'tilt.txt' 'must ascend'
   ies tilt.ies tilt=

@@ -19,6 +19,7 @@ struct head {
   double length, width, side[4]; /* of the luminous area, mm; heights towards C0, C90, ... */
   double factor;                 /* of the intensities */
   double lamps, lumens;          /* of the first set */
+  int lumens_line;
 };
 
 /* The number that a line begins with, with a decimal point or comma; a line without one is 0. */
@@ -100,9 +101,25 @@ static enum result skip_lines(struct photometry_text *text, int count, struct ph
   return result;
 }
 
+/* The luminaire's tilt while it was measured; not all write a number there. */
+static enum result read_tilt(struct photometry_text *text, struct warnings *notes,
+                             struct error *error) {
+  const char *line;
+  size_t length;
+  double tilt;
+  enum result result =
+      next_line(text, "the luminaire's tilt during the measurement", &line, &length, error);
+  if (result == RESULT_OK && line_number(line, length, &tilt) && tilt != 0)
+    warnings_add(notes,
+                 "it was tilted by %g degrees when it was measured: its light is as measured, its "
+                 "opening is taken to lie level",
+                 tilt);
+  return result;
+}
+
 /* Lines 1 to 25, and 26: the number of lamp sets. */
 static enum result read_head(struct photometry_text *text, struct head *head,
-                             struct photometry *lamp, struct error *error) {
+                             struct photometry *lamp, struct warnings *notes, struct error *error) {
   static const char *const heights[] = {"the opening's height towards C0", "that towards C90",
                                         "that towards C180", "that towards C270"};
   const double most = 1e7; /* mm */
@@ -134,7 +151,7 @@ static enum result read_head(struct photometry_text *text, struct head *head,
   if (result == RESULT_OK) result = skip_lines(text, 2, NULL, error);
   if (result == RESULT_OK)
     result = next_number(text, "the factor of the intensities", 0, 1e9, &head->factor, error);
-  if (result == RESULT_OK) result = skip_lines(text, 1, NULL, error);
+  if (result == RESULT_OK) result = read_tilt(text, notes, error);
   if (result == RESULT_OK)
     result = next_whole(text, "the number of lamp sets", 0, MOST_SETS, &head->sets, error);
   return result;
@@ -155,6 +172,7 @@ static enum result read_sets(struct photometry_text *text, struct head *head,
     if (n == 0) {
       head->lamps = lamps;
       head->lumens = fabs(lumens);
+      head->lumens_line = text->line - 4; /* three more lines follow */
     } else if (strlen(others) + 32 < sizeof others) {
       snprintf(others + strlen(others), 32, "%s%g", n > 1 ? ", " : "", lumens);
     }
@@ -168,7 +186,7 @@ static enum result read_sets(struct photometry_text *text, struct head *head,
     result = result_fail(error, RESULT_BAD,
                          "line %d: intensities are per 1000 lm, but the lamps "
                          "have no luminous flux: write it here",
-                         text->line - 4);
+                         head->sets > 0 ? head->lumens_line : text->line - 1);
   return result;
 }
 
@@ -205,6 +223,7 @@ static enum result read_table(struct photometry_text *text, const struct head *h
                               struct error *error) {
   double *all = numbers, *row = all + head->planes, *c = row + head->rows, *candela = c + count;
   double ratios[RATIOS];
+  int line;
   enum result result = photometry_text_numbers(text, "direct ratios", RATIOS, ratios, error);
   if (result == RESULT_OK)
     result = photometry_text_numbers(text, "C angles", (size_t)head->planes, all, error);
@@ -217,11 +236,12 @@ static enum result read_table(struct photometry_text *text, const struct head *h
   if (result == RESULT_OK)
     result = photometry_text_numbers(text, "intensities", (size_t)count * (size_t)head->rows,
                                      candela, error);
-  if (result == RESULT_OK && photometry_text_left(text) > 0)
+  size_t left = result == RESULT_OK ? photometry_text_left(text, &line) : 0;
+  if (left > 0)
     result = result_fail(error, RESULT_BAD,
                          "line %d: %zu numbers too many: the counts of planes "
                          "and intensities (%d, %d) do not fit the table",
-                         text->line, photometry_text_left(text), head->planes, head->rows);
+                         line, left, head->planes, head->rows);
   if (result != RESULT_OK) return result;
   choose_angles(all, head->planes, first, count, c);
   lamp->rows = head->rows;
@@ -269,13 +289,13 @@ enum result eulumdat_read(const char *text, size_t size, struct photometry *lamp
   struct head head = {0};
   *lamp = (struct photometry){.type = PHOTOMETRY_C};
   at.decimal_comma = true;
-  enum result result = read_head(&at, &head, lamp, error);
+  enum result result = read_head(&at, &head, lamp, notes, error);
   if (result == RESULT_OK) result = read_sets(&at, &head, notes, error);
   if (result == RESULT_OK) result = read_numbers(&at, &head, lamp, error);
   if (result != RESULT_OK) return result;
   set_opening(&head, lamp);
   lamp->lumens = head.lamps < 0 ? NAN : head.lumens; /* below 0: measured as a whole */
   if (!(head.factor > 0)) head.factor = 1;
-  photometry_scale(lamp, head.factor * head.lumens / 1000);
-  return RESULT_OK;
+  return result_at(photometry_scale(lamp, head.factor * head.lumens / 1000, error), error,
+                   "line %d", head.lumens_line);
 }

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/files.h"
 #include "import/photometric/ies_opening.h"
+#include "import/photometric/ies_tilt.h"
 #include "import/photometric/photometry_text.h"
 #include "import/photometric/photometry_unfold.h"
 
@@ -15,6 +15,7 @@ struct head {
   int year; /* of the standard */
   int rows, planes, type, units;
   double lamps, lumens, multiplier, width, length, height, ballast, lamp_factor, watts;
+  int multiplier_line, size_line;
 };
 
 /* The line starts with a word. */
@@ -82,82 +83,13 @@ static enum result read_labels(struct photometry_text *text, struct photometry *
                      text->line);
 }
 
-/* The lamps' output by the tilt of the luminaire: the factor where it is not tilted. */
-static enum result read_tilt(struct photometry_text *text, double *factor, double *least,
-                             struct error *error) {
-  int geometry, count;
-  double *angles = NULL;
-  enum result result = photometry_text_whole(text, "the lamp's position in the luminaire (1 to 3)",
-                                             1, 3, &geometry, error);
-  if (result == RESULT_OK)
-    result = photometry_text_whole(text, "the number of tilt angles", 1, PHOTOMETRY_MOST_ANGLES,
-                                   &count, error);
-  if (result != RESULT_OK) return result;
-  if (!(angles = calloc(2 * (size_t)count, sizeof *angles))) return result_no_memory(error);
-  double *factors = angles + count;
-  result = photometry_text_numbers(text, "tilt angles", (size_t)count, angles, error);
-  if (result == RESULT_OK)
-    result = photometry_text_ascending(text, "tilt angles", angles, count, -180, 180, error);
-  if (result == RESULT_OK)
-    result = photometry_text_numbers(text, "tilt factors", (size_t)count, factors, error);
-  if (result == RESULT_OK) {
-    *factor = factors[0];
-    *least = factors[0];
-    for (int k = 1; k < count; ++k) {
-      double part = angles[k] > angles[k - 1] ? -angles[k - 1] / (angles[k] - angles[k - 1]) : 0;
-      if (angles[k - 1] <= 0 && angles[k] >= 0)
-        *factor = factors[k - 1] + part * (factors[k] - factors[k - 1]);
-      *least = fmin(*least, factors[k]);
-    }
-  }
-  free(angles);
-  return result;
-}
-
-/* A TILT file: what INCLUDE would have here, in a file of its own beside this one. */
-static enum result read_tilt_file(const char *folder, const char *name, size_t length, int line,
-                                  double *factor, double *least, struct error *error) {
-  char file[200];
-  for (size_t k = 0; k < length; ++k) /* paths of another machine */
-    if (name[k] == '/' || name[k] == '\\') name += k + 1, length -= k + 1, k = (size_t)-1;
-  if (length == 0 || length >= sizeof file)
-    return result_fail(error, RESULT_BAD,
-                       "line %d: TILT= must be NONE, INCLUDE or the name of a "
-                       "file",
-                       line);
-  memcpy(file, name, length);
-  file[length] = 0;
-  char *content = folder ? files_read(folder, file) : NULL;
-  if (!content)
-    return result_fail(error, RESULT_BAD,
-                       "line %d: the TILT file %s cannot be read: put it beside "
-                       "this file, or write TILT=NONE",
-                       line, file);
-  struct photometry_text text = photometry_text_of(content, strlen(content));
-  enum result result = read_tilt(&text, factor, least, error);
-  free(content);
-  return result_at(result, error, "TILT file %s", file);
-}
-
-static enum result apply_tilt(struct photometry_text *text, const char *tilt, size_t length,
-                              const char *folder, double *factor, struct warnings *notes,
-                              struct error *error) {
-  double least = 1;
-  enum result result;
-  *factor = 1;
-  while (length > 0 && tilt[length - 1] == ' ') --length;
-  while (length > 0 && *tilt == ' ') ++tilt, --length;
-  if (length == 4 && !memcmp(tilt, "NONE", 4)) return RESULT_OK;
-  if (length == 7 && !memcmp(tilt, "INCLUDE", 7))
-    result = read_tilt(text, factor, &least, error);
-  else
-    result = read_tilt_file(folder, tilt, length, text->line - 1, factor, &least, error);
-  if (result == RESULT_OK)
-    warnings_add(notes,
-                 "its lamps' output changes when it is tilted (TILT: down to %g): the slab "
-                 "is the luminaire as it was measured, not tilted; use gain for another position",
-                 least);
-  return result;
+/* A factor of all intensities. */
+static enum result read_factor(struct photometry_text *text, const char *what, double *factor,
+                               struct error *error) {
+  enum result result = photometry_text_number(text, what, factor, error);
+  if (result != RESULT_OK || *factor != 0) return result;
+  return result_fail(error, RESULT_BAD, "line %d: %s is 0, and so would be all intensities",
+                     text->line, what);
 }
 
 static enum result read_head(struct photometry_text *text, struct head *head, struct error *error) {
@@ -165,7 +97,8 @@ static enum result read_head(struct photometry_text *text, struct head *head, st
   if (result == RESULT_OK)
     result = photometry_text_number(text, "the lumens of a lamp", &head->lumens, error);
   if (result == RESULT_OK)
-    result = photometry_text_number(text, "the candela multiplier", &head->multiplier, error);
+    result = read_factor(text, "the candela multiplier", &head->multiplier, error);
+  head->multiplier_line = text->line;
   if (result == RESULT_OK)
     result = photometry_text_whole(text, "the number of vertical angles", 2, PHOTOMETRY_MOST_ANGLES,
                                    &head->rows, error);
@@ -180,14 +113,18 @@ static enum result read_head(struct photometry_text *text, struct head *head, st
                                    &head->units, error);
   if (result == RESULT_OK)
     result = photometry_text_number(text, "the opening's width", &head->width, error);
+  head->size_line = text->line;
   if (result == RESULT_OK)
     result = photometry_text_number(text, "the opening's length", &head->length, error);
   if (result == RESULT_OK)
     result = photometry_text_number(text, "the opening's height", &head->height, error);
-  if (result == RESULT_OK)
-    result = photometry_text_number(text, "the ballast factor", &head->ballast, error);
-  if (result == RESULT_OK)
-    result = photometry_text_number(text, "the ballast-lamp factor", &head->lamp_factor, error);
+  if (result == RESULT_OK) result = read_factor(text, "the ballast factor", &head->ballast, error);
+  /* Until 1991 a factor too; since 1995 it says how the file was made. */
+  const char *second = "the ballast-lamp factor";
+  if (result == RESULT_OK && head->year < 1995)
+    result = read_factor(text, second, &head->lamp_factor, error);
+  else if (result == RESULT_OK)
+    result = photometry_text_number(text, second, &head->lamp_factor, error);
   if (result == RESULT_OK) result = photometry_text_number(text, "the watts", &head->watts, error);
   return result;
 }
@@ -228,7 +165,7 @@ static enum result read_table(struct photometry_text *text, const struct head *h
   bool c = lamp->type == PHOTOMETRY_C;
   size_t count = (size_t)head->rows * (size_t)head->planes;
   double *rows = numbers, *planes = rows + head->rows, *candela = planes + head->planes;
-  int plane_count = head->planes;
+  int plane_count = head->planes, line;
   enum photometry_symmetry symmetry = PHOTOMETRY_ASYMMETRIC;
   enum result result =
       photometry_text_numbers(text, "vertical angles", (size_t)head->rows, rows, error);
@@ -250,11 +187,12 @@ static enum result read_table(struct photometry_text *text, const struct head *h
   if (result == RESULT_OK && c) result = find_symmetry(text, planes, plane_count, &symmetry, error);
   if (result == RESULT_OK)
     result = photometry_text_numbers(text, "candela values", count, candela, error);
-  if (result == RESULT_OK && photometry_text_left(text) > 0)
+  size_t left = result == RESULT_OK ? photometry_text_left(text, &line) : 0;
+  if (left > 0)
     result = result_fail(error, RESULT_BAD,
                          "line %d: %zu numbers too many: the counts of angles "
                          "(%d, %d) do not fit the table",
-                         text->line, photometry_text_left(text), head->rows, head->planes);
+                         line, left, head->rows, head->planes);
   if (result != RESULT_OK) return result;
   if (!c)
     return photometry_unfold_sides(lamp, planes, plane_count, rows, head->rows, candela, error);
@@ -281,8 +219,9 @@ static enum result read_numbers(struct photometry_text *text, const struct head 
   return result;
 }
 
-enum result ies_read(const char *text, size_t size, const char *folder, struct photometry *lamp,
-                     struct warnings *notes, struct error *error) {
+/* With commas as decimal points, or between numbers. */
+static enum result read_all(const char *text, size_t size, bool decimal, const char *folder,
+                            struct photometry *lamp, struct warnings *notes, struct error *error) {
   static const enum photometry_type types[] = {PHOTOMETRY_C, PHOTOMETRY_B, PHOTOMETRY_A};
   struct photometry_text at = photometry_text_of(text, size);
   struct head head = {0};
@@ -290,25 +229,47 @@ enum result ies_read(const char *text, size_t size, const char *folder, struct p
   size_t tilt_length = 0;
   double factor = 1;
   *lamp = (struct photometry){0};
+  at.decimal_comma = decimal;
   enum result result = read_labels(&at, lamp, &head, &tilt, &tilt_length, error);
-  if (result == RESULT_OK)
-    result = apply_tilt(&at, tilt, tilt_length, folder, &factor, notes, error);
+  if (result == RESULT_OK) result = ies_tilt(&at, tilt, tilt_length, folder, &factor, notes, error);
   if (result == RESULT_OK) result = read_head(&at, &head, error);
   if (result != RESULT_OK) return result;
   lamp->type = types[head.type - 1];
   lamp->lumens = head.lumens > 0 ? head.lamps * head.lumens : NAN;
   result = ies_opening(head.year, (head.units == 1 ? 0.3048 : 1), head.width, head.length,
                        head.height, lamp, notes, error);
+  result = result_at(result, error, "line %d", head.size_line);
+  if (result == RESULT_OK && lamp->type == PHOTOMETRY_A) ies_opening_raise(lamp, notes);
   if (result == RESULT_OK) result = read_numbers(&at, &head, lamp, notes, error);
   if (result != RESULT_OK) return result;
-  /* Until 1991 the number behind the ballast factor was one too; since 1995 it says how the file
-   * was made. */
   factor *= head.multiplier * head.ballast * (head.year < 1995 ? head.lamp_factor : 1);
-  if (!(fabs(factor) > 0) || !isfinite(factor))
-    return result_fail(error, RESULT_BAD,
-                       "line %d: the candela multiplier and ballast factors "
-                       "multiply to %g",
-                       at.line, factor);
-  photometry_scale(lamp, factor);
-  return RESULT_OK;
+  return result_at(photometry_scale(lamp, factor, error), error, "line %d", head.multiplier_line);
+}
+
+/* Whether the commas behind TILT= may be decimal points. */
+static bool may_be_decimal(const char *text, size_t size) {
+  struct photometry_text at = photometry_text_of(text, size);
+  const char *line;
+  size_t length;
+  while (photometry_text_line(&at, &line, &length))
+    if (starts(line, length, "TILT=")) return photometry_text_may_be_decimal(&at);
+  return false;
+}
+
+/* Numbers are separated by blanks, commas or both. Where they do not add up so, commas may be
+ * decimal points, as those of EULUMDAT. */
+enum result ies_read(const char *text, size_t size, const char *folder, struct photometry *lamp,
+                     struct warnings *notes, struct error *error) {
+  struct warnings told[2] = {{0}, {0}};
+  bool decimal = false;
+  enum result result = read_all(text, size, false, folder, lamp, &told[0], error);
+  if (result == RESULT_BAD && may_be_decimal(text, size)) {
+    decimal = true;
+    photometry_free(lamp);
+    result = read_all(text, size, true, folder, lamp, &told[1], error);
+    warnings_add(&told[1], "its commas are read as decimal points");
+  }
+  for (int k = 0; k < warnings_kept(&told[decimal]); ++k)
+    warnings_add(notes, "%s", told[decimal].lines[k]);
+  return result;
 }

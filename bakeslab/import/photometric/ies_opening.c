@@ -53,7 +53,11 @@ enum result ies_opening(int year, double metres, double width, double length, do
   length *= metres;
   height *= metres;
   double w = fabs(width), l = fabs(length), h = fabs(height);
-  if (!(fmax(w, fmax(l, h)) < 1e4))
+  double least = INFINITY;
+  const double all[3] = {w, l, h};
+  for (int k = 0; k < 3; ++k)
+    if (all[k] > 0) least = fmin(least, all[k]);
+  if (!(fmax(w, fmax(l, h)) < 1e4) || least < 1e-6)
     return result_fail(error, RESULT_BAD, "an opening of %g x %g x %g m is no lamp's", width,
                        length, height);
   bool flat = !(height < 0);
@@ -72,4 +76,15 @@ enum result ies_opening(int year, double metres, double width, double length, do
                  "LM-63; taken for an ellipsoid",
                  width, length, height);
   return RESULT_OK;
+}
+
+void ies_opening_raise(struct photometry *lamp, struct warnings *notes) {
+  double x = lamp->size[0], z = lamp->size[2];
+  if (lamp->size[1] > 0 || !(fmin(x, z) > 0)) return;
+  set(lamp, lamp->shape, 0, 0, x, z);
+  for (int k = 0; k < 4; ++k) lamp->side[k] = lamp->size[1];
+  warnings_add(notes,
+               "it is of type A, whose light goes along the horizontal: its opening, flat in the "
+               "file, faces that way, %g m wide and %g m high",
+               z, x);
 }

@@ -10,4 +10,8 @@
 enum result ies_opening(int year, double metres, double width, double length, double height,
                         struct photometry *lamp, struct warnings *notes, struct error *error);
 
+/* Of type A, whose light goes along the horizontal, towards +x: an opening that the file lays flat
+ * faces that way, its length upwards and its width across. */
+void ies_opening_raise(struct photometry *lamp, struct warnings *notes);
+
 #endif

@@ -173,8 +173,7 @@ static enum result rescale(const struct import_wish *wish, struct photometry *la
   if (!(flux > 0))
     return result_fail(error, RESULT_BAD, "its flux is %g lm and cannot be rescaled to %g lm", flux,
                        wish->lumens);
-  photometry_scale(lamp, wish->lumens / flux);
-  return RESULT_OK;
+  return photometry_scale(lamp, wish->lumens / flux, error);
 }
 
 static enum result read_slabs(const struct import_wish *wish, struct import_light *light,

@@ -141,7 +141,13 @@ double photometry_peak(const struct photometry *lamp) {
   return peak;
 }
 
-void photometry_scale(struct photometry *lamp, double factor) {
+enum result photometry_scale(struct photometry *lamp, double factor, struct error *error) {
   size_t count = (size_t)lamp->planes * (size_t)lamp->rows;
-  for (size_t n = 0; n < count; ++n) lamp->candela[n] *= factor;
+  double most = 0;
+  for (size_t n = 0; n < count; ++n) {
+    lamp->candela[n] *= factor;
+    most = fmax(most, fabs(lamp->candela[n]));
+  }
+  if (most <= PHOTOMETRY_MOST) return RESULT_OK;
+  return result_fail(error, RESULT_BAD, "intensities of %g cd are no lamp's", most);
 }

@@ -22,6 +22,8 @@
 #include "base/result.h"
 #include "base/warnings.h"
 
+#define PHOTOMETRY_MOST 1e15 /* larger numbers no lamp has */
+
 enum photometry_type { PHOTOMETRY_A = 'A', PHOTOMETRY_B = 'B', PHOTOMETRY_C = 'C' };
 
 /* What the light comes from: convex, centred on the origin. */
@@ -76,7 +78,7 @@ double photometry_flux(const struct photometry *lamp);
 /* The largest intensity of the table. */
 double photometry_peak(const struct photometry *lamp);
 
-/* Multiplies all intensities. */
-void photometry_scale(struct photometry *lamp, double factor);
+/* Multiplies all intensities. Refuses those that no lamp has. */
+enum result photometry_scale(struct photometry *lamp, double factor, struct error *error);
 
 #endif

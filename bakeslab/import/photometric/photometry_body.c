@@ -38,14 +38,13 @@ static double middle_of(const double size[3]) {
 
 static void set_sizes(const struct photometry *lamp, bool thick, struct photometry_body *body) {
   double *size = body->size, longest = fmax(lamp->size[0], fmax(lamp->size[1], lamp->size[2]));
-  int zeros = 0;
+  int zeros = 0, flat = lamp->type == PHOTOMETRY_A ? 0 : 1; /* along which it has no size */
   memcpy(size, lamp->size, sizeof body->size);
   for (int k = 0; k < 3; ++k) zeros += !(size[k] > 0);
-  if (zeros == 3) size[0] = size[2] = PHOTOMETRY_POINT_SIZE;
-  if (zeros == 3 && thick) size[1] = PHOTOMETRY_POINT_SIZE;
-  if (zeros == 2) /* a line lies down if it can */
-    for (int k = 0; k < 3; ++k)
-      if (!(size[k] > 0) && (thick || k != 1)) size[k] = longest * BODY_THIN;
+  for (int k = 0; k < 3 && zeros == 3; ++k)
+    if (thick || k != flat) size[k] = PHOTOMETRY_POINT_SIZE;
+  for (int k = 0; k < 3 && zeros == 2; ++k)
+    if (!(size[k] > 0) && (thick || k != flat)) size[k] = longest * BODY_THIN;
   if (zeros < 2 && thick)
     for (int k = 0; k < 3; ++k) size[k] = fmax(size[k], middle_of(lamp->size) * BODY_THIN);
 }
@@ -67,6 +66,11 @@ static bool is_flat(const struct photometry_body *body) {
 
 bool photometry_is_even(const struct photometry_body *body) {
   return body->shape == PHOTOMETRY_BOX || is_flat(body);
+}
+
+bool photometry_runs_along(const struct photometry_body *body, int face, int axis) {
+  const double *edge = axis == 0 ? body->face[face].u : body->face[face].v;
+  return body->shape == PHOTOMETRY_CYLINDER && body->size[body->axis] > 0 && edge[body->axis] != 0;
 }
 
 bool photometry_is_thin(const struct photometry_body *body) {

@@ -24,14 +24,18 @@ struct photometry_body {
 };
 
 /* The lamp's body. What has no size gets one: a point a square of PHOTOMETRY_POINT_SIZE metres that
- * faces down, a line BODY_THIN of its length. With `thick`, something flat gets sides too: a
- * point's square becomes a cube, others get at least BODY_THIN of their next larger size. */
+ * faces down, or +x if it is of type A, a line BODY_THIN of its length. With `thick`, something
+ * flat gets sides too: a point's square becomes a cube, others get at least BODY_THIN of their next
+ * larger size. */
 #define PHOTOMETRY_POINT_SIZE 0.01
 #define BODY_THIN 0.05
 void photometry_body(const struct photometry *lamp, bool thick, struct photometry_body *body);
 
 /* Whether a face shines alike in all directions: boxes, and what is flat. */
 bool photometry_is_even(const struct photometry_body *body);
+
+/* Whether u (axis 0) or v of a face runs along the side of a cylinder. */
+bool photometry_runs_along(const struct photometry_body *body, int face, int axis);
 
 /* Flat, or so thin that it is nearly so. */
 bool photometry_is_thin(const struct photometry_body *body);

@@ -52,6 +52,23 @@ static size_t next_word(struct photometry_text *text, char word[WORD]) {
   return length < WORD - 1 ? length : WORD;
 }
 
+bool photometry_text_may_be_decimal(const struct photometry_text *text) {
+  struct photometry_text rest = *text;
+  char word[WORD];
+  bool found = false;
+  rest.decimal_comma = true;
+  for (;;) {
+    skip_blanks(&rest);
+    const char *start = rest.at, *comma = NULL;
+    if (next_word(&rest, word) == 0) return found;
+    for (const char *c = start; c < rest.at; ++c) {
+      if (*c == '.' || (*c == ',' && comma)) return false;
+      if (*c == ',') comma = c;
+    }
+    found = found || (comma && comma + 1 < rest.at && comma[1] >= '0' && comma[1] <= '9');
+  }
+}
+
 enum result photometry_text_number(struct photometry_text *text, const char *what, double *number,
                                    struct error *error) {
   char word[WORD];
@@ -61,7 +78,11 @@ enum result photometry_text_number(struct photometry_text *text, const char *wha
                        "line %d: the file ends where %s should be: it is cut "
                        "off",
                        text->line, what);
-  if (numbers_real(word, 1, number)) return RESULT_OK;
+  if (numbers_real(word, 1, number)) {
+    if (*number >= -PHOTOMETRY_MOST && *number <= PHOTOMETRY_MOST) return RESULT_OK;
+    return result_fail(error, RESULT_BAD, "line %d: %s: %g is no lamp's", text->line, what,
+                       *number);
+  }
   for (char *c = word; *c; ++c)
     if (*c < ' ' || *c > '~') *c = '?';
   return result_fail(error, RESULT_BAD,
@@ -113,10 +134,12 @@ enum result photometry_text_ascending(const struct photometry_text *text, const 
   return RESULT_OK;
 }
 
-size_t photometry_text_left(const struct photometry_text *text) {
+size_t photometry_text_left(const struct photometry_text *text, int *line) {
   struct photometry_text rest = *text;
   char word[WORD];
   size_t count = 0;
+  skip_blanks(&rest);
+  *line = rest.line;
   while (next_word(&rest, word) > 0) ++count;
   return count;
 }

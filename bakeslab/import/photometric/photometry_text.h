@@ -17,7 +17,11 @@ struct photometry_text photometry_text_of(const char *text, size_t size);
 /* A line without its end; false after the last. */
 bool photometry_text_line(struct photometry_text *text, const char **line, size_t *length);
 
-/* The next number. `what` names it where it is missing or no number: "line N: ...". */
+/* Whether commas may be its numbers' decimal points: some lie between digits, no word has two, and
+ * no number has a point. */
+bool photometry_text_may_be_decimal(const struct photometry_text *text);
+
+/* The next number. `what` names it where it is missing, too large or no number: "line N: ...". */
 enum result photometry_text_number(struct photometry_text *text, const char *what, double *number,
                                    struct error *error);
 
@@ -34,8 +38,8 @@ enum result photometry_text_ascending(const struct photometry_text *text, const 
                                       const double *numbers, int count, double low, double high,
                                       struct error *error);
 
-/* How many more words there are. */
-size_t photometry_text_left(const struct photometry_text *text);
+/* How many more words there are, and the line of the first. */
+size_t photometry_text_left(const struct photometry_text *text, int *line);
 
 /* Adds the bytes to the lamp's label, as UTF-8, after a blank: Latin-1 where they are not UTF-8;
  * control characters become blanks. */
