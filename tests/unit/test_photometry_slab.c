@@ -184,6 +184,13 @@ static double both_ways(const double d[3], const void *about) {
   return d[1] < 0 ? 200 * d[1] * d[1] : 300 * d[1] * d[1] * d[1];
 }
 
+/* As bright along an axis as across it: the radiance has a peak where the end of a cylinder is all
+ * that is seen. */
+static double all_around(const double d[3], const void *about) {
+  (void)about;
+  return 500 * (1 + 0.5 * d[0]);
+}
+
 static void check_lamp(const char *name, photometric_candela *candela, const double size[3],
                        double flux) {
   struct import_light light =
@@ -200,6 +207,10 @@ TEST(lamps_give_their_intensities) {
   check_lamp("both.ies", both_ways, (double[3]){0.2, 1.2, 0.05},
              2 * M_PI * (200.0 / 3 + 300.0 / 4));
   check_lamp("point.ies", both_ways, (double[3]){0, 0, 0}, 2 * M_PI * (200.0 / 3 + 300.0 / 4));
+}
+
+TEST(a_cylinder_is_as_bright_along_its_axis) {
+  check_lamp("round.ies", all_around, (double[3]){-0.1, 0.3, -0.1}, 4 * M_PI * 500);
 }
 
 /* What the slab says of its error holds for directions that it did not look at. */

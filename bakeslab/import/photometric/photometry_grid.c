@@ -1,6 +1,7 @@
 /* photometry_grid.c -
- *  1. A cell's mean is a sum over points of it, nearer to each other than half the table's steps
- *     (facts of sampling: means keep the flux, samples at the middle do not).
+ *  1. A cell's mean is a sum over points of it, nearer to each other than half the table's steps:
+ *     means keep the flux, samples at the middle do not. Of round bodies, the intensity is a mean,
+ *     and the area that it is divided by a sample, since it has a cusp.
  *  2. The far field towards d is the sum over pages of area, cosine, share and interpolated mean.
  *  3. The pages that are off by most get cells finer by half, until the far field is right within
  *     the tolerance.
@@ -9,22 +10,24 @@
 
 #include <math.h>
 #include <stdlib.h>
+
 #include <string.h>
 
 #include "slab/slab.h"
 
 enum {
   LEAST = 24,       /* cells along the widest window, to begin with */
-  MOST_FIRST = 300, /* of round bodies, to begin with */
+  MOST_FIRST = 400, /* of round bodies, to begin with */
   MOST = 1024,
   MOST_SAMPLES = 1 << 23,  /* of all pages, with as few positions as may be */
   CHEAP_SAMPLES = 1 << 20, /* and where finer cells do not help: tables may jump */
   MOST_POINTS = 24,        /* of a cell, along each axis */
+  CUSP = 4,                /* the same, where a cusp is */
   SPHERE = 4000,           /* directions of the measure of error */
   TABLE = 4000             /* and of the table's own, at most */
 };
 
-static const double round_cell = 0.2;
+static const double round_cell = 0.2, along_cell = 0.29, growth_cell = 0.4;
 static const double most_factor = 0.05;
 static const double still_better = 0.9; /* of the error before, for cells that are not cheap */
 
@@ -53,28 +56,54 @@ static double point_step(const struct photometry *lamp) {
   return fmax(step, 0.25) * M_PI / 180 / 2;
 }
 
-/* The mean radiance of a cell, weighted by cos^4, as the flux is in slopes. */
+/* Where a direction is a page's normal, the projected area of a body with sides has a cusp, and so
+ * has either the radiance or the intensity. Only samples in the middle of cells there keep it when
+ * they are interpolated; but what neighbours leave to the page is a mean there, too. */
+static double cusp_radiance(const struct photometry *lamp, const struct photometry_pages *pages,
+                            int page, const double middle[2], const double step[2]) {
+  double d[3], kept = 0;
+  for (int k = 0; k < CUSP * CUSP; ++k) {
+    double s = middle[0] + ((k % CUSP + 0.5) / CUSP - 0.5) * step[0];
+    double t = middle[1] + ((k / CUSP + 0.5) / CUSP - 0.5) * step[1];
+    photometry_direction(pages, page, s, t, d);
+    kept += photometry_gain(pages, page, d) * photometry_area(&pages->body, d) / (CUSP * CUSP);
+  }
+  photometry_direction(pages, page, middle[0], middle[1], d);
+  return kept * photometry_candela(lamp, d) / photometry_area(&pages->body, d);
+}
+
+/* The middle of the cell lies where one of the slopes is 0. */
+static bool holds_normal(const double middle[2], const double step[2]) {
+  return fabs(middle[0]) < 1e-6 * step[0] || fabs(middle[1]) < 1e-6 * step[1];
+}
+
+/* The radiance of a cell: the mean intensity, weighted by cos^4 as the flux is in slopes, and what
+ * the body makes of it in the middle. */
 static double cell_mean(const struct photometry *lamp, const struct photometry_pages *pages,
                         int page, const double low[2], const double step[2], double angle) {
   double middle[2] = {low[0] + step[0] / 2, low[1] + step[1] / 2}, sum = 0, weights = 0;
   double near[2] = {fmax(0, fabs(middle[0]) - step[0] / 2), fmax(0, fabs(middle[1]) - step[1] / 2)};
-  double wide = 1 / sqrt(1 + near[0] * near[0] + near[1] * near[1]);
+  double wide = 1 / sqrt(1 + near[0] * near[0] + near[1] * near[1]), d[3];
   int n[2];
+  bool even = photometry_is_even(&pages->body);
+  if (!even && holds_normal(middle, step)) return cusp_radiance(lamp, pages, page, middle, step);
   for (int axis = 0; axis < 2; ++axis)
     n[axis] = (int)fmin(fmax(ceil(step[axis] * wide / angle), 2), MOST_POINTS);
   for (int j = 0; j < n[1]; ++j)
     for (int i = 0; i < n[0]; ++i) {
       double s = low[0] + (i + 0.5) / n[0] * step[0], t = low[1] + (j + 0.5) / n[1] * step[1];
-      double d[3], weight = 1 / pow(1 + s * s + t * t, 2);
+      double weight = 1 / pow(1 + s * s + t * t, 2);
       photometry_direction(pages, page, s, t, d);
-      sum += weight * photometry_radiance(lamp, pages, page, d);
+      sum +=
+          weight * (even ? photometry_radiance(lamp, pages, page, d) : photometry_candela(lamp, d));
       weights += weight;
     }
-  return sum / weights;
+  if (even) return sum / weights;
+  photometry_direction(pages, page, middle[0], middle[1], d);
+  return sum / weights * photometry_gain(pages, page, d);
 }
 
-/* The part of a page that sends light in a direction. Of round bodies it has a cusp where the
- * direction is the page's normal; a sample there, not a mean, keeps it when it is interpolated. */
+/* The part of a page that sends light in a direction. */
 static double page_share(const struct photometry_pages *pages, int page, double s, double t) {
   const struct photometry_face *face = &pages->body.face[pages->page[page].face];
   double d[3];
@@ -236,12 +265,24 @@ static enum result fit_flux(const struct photometry *lamp, const struct photomet
   return RESULT_OK;
 }
 
-/* Cells along both axes of a page, `across` of them on the wider one. */
-static void count_cells(const struct photometry_pages *pages, int page, int across, int n[2]) {
+/* The lengths of a page's window, in units of slope; along the side of a cylinder, where positions
+ * differ little, cells may be longer, and lengths count less. Returns the longer. */
+static double window_lengths(const struct photometry_pages *pages, int page, double length[2]) {
+  const struct photometry_body *body = &pages->body;
   const double *window = pages->page[page].window;
-  double s = window[1] - window[0], t = window[3] - window[2], wider = fmax(s, t);
-  n[0] = (int)fmax(8, ceil(across * s / wider)) | 1; /* odd: one has the normal in its middle */
-  n[1] = (int)fmax(8, ceil(across * t / wider)) | 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    length[axis] = window[2 * axis + 1] - window[2 * axis];
+    if (photometry_runs_along(body, pages->page[page].face, axis))
+      length[axis] *= round_cell / along_cell;
+  }
+  return fmax(length[0], length[1]);
+}
+
+/* Cells along both axes of a page, `across` of them on the longer one. */
+static void count_cells(const struct photometry_pages *pages, int page, int across, int n[2]) {
+  double length[2], longer = window_lengths(pages, page, length);
+  for (int axis = 0; axis < 2; ++axis) /* odd: one has the normal in its middle */
+    n[axis] = (int)fmax(8, ceil(across * length[axis] / longer)) | 1;
 }
 
 /* The pages that are off by most get finer cells, half as many again; false where that would be
@@ -291,13 +332,28 @@ static bool is_done(const struct photometry_grid_error *error, const double own[
   return most <= tolerance || (error->most95 <= tolerance && error->most <= 2.5 * tolerance);
 }
 
-/* Where positions differ, their directions tell near by what is seen: cells of round bodies have
- * slopes of round_cell at most. */
+/* By how much the body's area grows with the slope from a page's normal on, per slope; the larger
+ * of both axes'. */
+static double growth_of(const struct photometry_pages *pages, int page) {
+  const double slope = 0.01;
+  double normal[3], along[3], most = 0;
+  photometry_direction(pages, page, 0, 0, normal);
+  for (int axis = 0; axis < 2; ++axis) {
+    photometry_direction(pages, page, axis == 0 ? slope : 0, axis == 0 ? 0 : slope, along);
+    double ratio = photometry_area(&pages->body, along) / photometry_area(&pages->body, normal);
+    most = fmax(most, (ratio - 1) / slope);
+  }
+  return most;
+}
+
+/* Interpolation over cells of which each lets the area grow by growth_cell is off by a thirtieth
+ * or less. Where positions differ, their directions tell near by what is seen: cells of round
+ * bodies have slopes of round_cell at most. */
 static int first_across(const struct photometry_pages *pages, int page) {
-  const double *window = pages->page[page].window;
-  double wider = fmax(window[1] - window[0], window[3] - window[2]);
+  double length[2], longer = window_lengths(pages, page, length);
   if (photometry_is_even(&pages->body)) return LEAST;
-  return (int)fmin(fmax(LEAST, wider / round_cell), MOST_FIRST);
+  double cell = fmin(round_cell, growth_cell / growth_of(pages, page));
+  return (int)fmin(fmax(LEAST, longer / cell), MOST_FIRST);
 }
 
 enum result photometry_grid(const struct photometry *lamp, const struct photometry_pages *pages,

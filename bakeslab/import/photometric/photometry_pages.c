@@ -3,8 +3,9 @@
  *     and sums the flux of each face by slope along u and along v.
  *  2. Cuts each of the four ends of a window where the flux beyond it is a small part of the lamp's
  *     and the intensity there is small too.
- *  3. Where too much lies beyond the steepest slope of all, neighbours take it over; what is flat
- * or thin gets sides for that, or thicker ones, and step 1 begins again. */
+ *  3. Where too much lies beyond the steepest slope of all, and of round bodies always, neighbours
+ *     take it over; what is flat or thin gets sides for that, or thicker ones, and step 1 begins
+ *     again. */
 #include "import/photometric/photometry_pages.h"
 
 #include <math.h>
@@ -13,22 +14,24 @@
 enum {
   STEPS_C = 240, /* directions, in C and in gamma */
   STEPS_GAMMA = 240,
-  BINS = 352,   /* of slopes: half degrees from -STEEPEST to STEEPEST */
-  STEEPEST = 88 /* degrees */
+  BINS = 358, /* of slopes: half degrees from -steepest to steepest */
 };
+static const double steepest = 89.5;    /* degrees */
+static const double steep_slope = 28.6; /* 88 degrees: where windows end, but along cylinders */
 
 /* Beyond an end: part of the lamp's flux, and the intensity there over the lamp's largest (of flat
  * ones, that lose it only along themselves, more); where a neighbour takes it over, part of the
  * flux, or of the area in each direction: so much brighter the neighbour becomes there. */
 static const double cut_flux = 0.0005, cut_peak = 0.015, cut_flat = 0.04, cut_shared = 0.0002,
-                    cut_narrow = 0.002, cut_share = 0.015;
-/* Slopes beyond which a neighbour may go on: it faces such directions more than the page does. */
-static const double least_shared = 2;
+                    cut_narrow = 0.002, cut_share = 0.015, cut_round = 0.03;
+/* Slopes beyond which a neighbour may go on: it faces such directions more than the page does; of
+ * round bodies where the page's part of the area is small, too. */
+static const double least_shared = 2, least_small = 0.25;
 /* Thin bodies' windows end here at the latest: their sides are bright beyond. */
 static const double most_thin = 8;
 /* Where a page fades: from this part of the slope at the end on. */
 static const double fade_from = 0.6;
-/* A flat opening may lose as much beyond STEEPEST. */
+/* A flat opening may lose as much beyond steep_slope. */
 static const double lost_flux = 0.002, lost_peak = 0.05;
 
 /* What a face sends, by slope. */
@@ -55,7 +58,7 @@ static void face_slopes(const struct photometry_face *face, const double directi
 }
 
 static int bin_of(double slope) {
-  double bin = (atan(slope) * 180 / M_PI + STEEPEST) * BINS / (2 * STEEPEST);
+  double bin = (atan(slope) * 180 / M_PI + steepest) * BINS / (2 * steepest);
   return bin < 0 || bin >= BINS ? -1 : (int)bin;
 }
 
@@ -73,7 +76,7 @@ static void count_direction(const struct photometry_body *body, const double d[3
     double flux = share * fabs(candela) * solid_angle;
     face_slopes(face, d, cosine, st);
     int bin[2] = {bin_of(st[0]), bin_of(st[1])};
-    if (bin[0] < 0 || bin[1] < 0) {
+    if (fmax(fabs(st[0]), fabs(st[1])) > steep_slope) {
       profile->beyond += flux;
       profile->beyond_peak = fmax(profile->beyond_peak, share * share_peak);
     }
@@ -109,21 +112,26 @@ static bool has_neighbour(const struct photometry_body *body, int face, int axis
 }
 
 static double slope_of(int edge) {
-  return tan((edge * 2.0 * STEEPEST / BINS - STEEPEST) * M_PI / 180);
+  return tan((edge * 2 * steepest / BINS - steepest) * M_PI / 180);
 }
 
 /* How many bins beyond an end are cut off: those, from the steepest on, that hold little. Where a
- * neighbour takes them over, steep ones of which it has most, and of thin bodies all. */
+ * neighbour takes them over, steep ones of which it has most, and of thin bodies all. Not `along`
+ * a cylinder: what its end would take over there lies within a few degrees of the end's normal, too
+ * few for the end's cells. */
 static int cut_end(const struct survey *survey, const struct profile *profile, int axis, int sign,
-                   const struct photometry_pages *pages, bool shared, double peak_cut) {
-  double sum = 0;
+                   const struct photometry_pages *pages, bool shared, bool along, double peak_cut) {
+  bool even = photometry_is_even(&pages->body);
+  double sum = 0, share_cut = even ? cut_share : cut_round;
+  double least_slope = even ? least_shared : least_small;
   for (int n = 0; n < BINS - 2; ++n) {
     int bin = sign > 0 ? BINS - 1 - n : n;
     double slope = sign * slope_of(sign > 0 ? bin : bin + 1);
     bool others = shared && slope >= least_shared;
+    bool small = shared && slope >= least_slope && profile->share[axis][bin] <= share_cut;
     sum += profile->flux[axis][bin];
-    if (others && (profile->share[axis][bin] <= cut_share || (pages->thick && slope >= most_thin)))
-      continue;
+    if (slope > steep_slope && !along) continue;
+    if (small || (others && pages->thick && slope >= most_thin)) continue;
     if (sum > (!others ? cut_flux : pages->narrow ? cut_narrow : cut_shared) * survey->flux)
       return n;
     if (!others && profile->peak[axis][bin] > peak_cut * survey->peak) return n;
@@ -134,7 +142,7 @@ static int cut_end(const struct survey *survey, const struct profile *profile, i
 /* Puts 0 into the middle of a window that is nearly so. */
 static void centre(double ends[2]) {
   double longer = fmax(-ends[0], ends[1]), shorter = fmin(-ends[0], ends[1]);
-  if (shorter < longer / 2) return;
+  if (shorter < longer / 4) return;
   ends[0] = -longer;
   ends[1] = longer;
 }
@@ -147,9 +155,12 @@ static void cut(const struct survey *survey, const struct photometry_pages *page
     for (int high = 0; high < 2; ++high) {
       int sign = high ? 1 : -1;
       bool shared = pages->shared && has_neighbour(&pages->body, page->face, axis, sign);
-      int count = cut_end(survey, profile, axis, sign, pages, shared, peak_cut);
+      bool along = !pages->narrow && photometry_runs_along(&pages->body, page->face, axis);
+      int count = cut_end(survey, profile, axis, sign, pages, shared && !along, along, peak_cut);
       ends[high] = high ? BINS - count : count;
-      page->fades[2 * axis + high] = shared && sign * slope_of(ends[high]) > least_shared;
+      page->fades[2 * axis + high] =
+          shared && sign * slope_of(ends[high]) >
+                        (photometry_is_even(&pages->body) ? least_shared : least_small);
     }
     if (ends[0] >= ends[1]) ends[1] = ends[0] + 1;
     page->window[2 * axis] = slope_of(ends[0]);
@@ -204,7 +215,7 @@ enum result photometry_pages(const struct photometry *lamp, double tolerance, bo
   look(lamp, &pages->body, survey);
   bool lost = loses(survey, &pages->body);
   pages->narrow = narrow && count_faces(&pages->body) > 2;
-  pages->shared = lost || pages->narrow;
+  pages->shared = lost || pages->narrow || !photometry_is_even(&pages->body);
   if (lost && photometry_is_thin(&pages->body)) {
     pages->thick = true;
     photometry_body(lamp, true, &pages->body);
@@ -266,14 +277,11 @@ static double weight_of(const struct photometry_pages *pages, int page, const do
   return weight;
 }
 
-double photometry_radiance(const struct photometry *lamp, const struct photometry_pages *pages,
-                           int page, const double direction[3]) {
+double photometry_gain(const struct photometry_pages *pages, int page, const double direction[3]) {
   const struct photometry_body *body = &pages->body;
-  double candela = photometry_candela(lamp, direction), weight[BODY_FACES] = {0};
-  double held = 0, whole = 0;
+  double weight[BODY_FACES] = {0}, held = 0, whole = 0;
   bool all = true;
-  if (candela == 0) return 0;
-  if (!pages->shared) return candela / photometry_area(body, direction);
+  if (!pages->shared) return 1 / photometry_area(body, direction);
   double own = weight_of(pages, page, direction);
   if (!(own > 0)) return 0;
   for (int n = 0; n < pages->count; ++n)
@@ -281,11 +289,17 @@ double photometry_radiance(const struct photometry *lamp, const struct photometr
   for (int f = 0; f < BODY_FACES; ++f)
     all = all && (weight[f] == 1 || !(body->face[f].size[0] > 0) ||
                   dot(direction, body->face[f].normal) <= 0);
-  if (all) return candela / photometry_area(body, direction);
+  if (all) return 1 / photometry_area(body, direction);
   for (int f = 0; f < BODY_FACES; ++f) {
     double area = photometry_face_area(body, f, direction);
     whole += area;
     held += weight[f] * area;
   }
-  return held > 0 ? own * candela * whole / held / photometry_area(body, direction) : 0;
+  return held > 0 ? own * whole / held / photometry_area(body, direction) : 0;
+}
+
+double photometry_radiance(const struct photometry *lamp, const struct photometry_pages *pages,
+                           int page, const double direction[3]) {
+  double candela = photometry_candela(lamp, direction);
+  return candela == 0 ? 0 : candela * photometry_gain(pages, page, direction);
 }

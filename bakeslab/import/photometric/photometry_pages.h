@@ -49,6 +49,10 @@ void photometry_direction(const struct photometry_pages *pages, int page, double
 bool photometry_slopes(const struct photometry_pages *pages, int page, const double direction[3],
                        double st[2]);
 
+/* Radiance of a page towards a direction (unit) over the intensity there, 1/m2: what the body and
+ * the windows make of it. */
+double photometry_gain(const struct photometry_pages *pages, int page, const double direction[3]);
+
 /* Radiance of a page towards a direction (unit), cd/m2. */
 double photometry_radiance(const struct photometry *lamp, const struct photometry_pages *pages,
                            int page, const double direction[3]);
