@@ -51,7 +51,7 @@ static const char doc[] =
     "  bakeslab include IMG_2001.tif -o porch.inc --name porch_light\n"
     "  bakeslab include downlight.ies -o downlight.inc --mode point";
 
-enum { DEFAULT_CLUSTER = 16 };
+enum { DEFAULT_CLUSTER = 16, DEFAULT_CLUSTER_TABLE = 24 }; /* of a table: photometric files */
 static const double default_distance = 4;
 
 struct arguments {
@@ -71,7 +71,7 @@ static const struct argp_option options[] = {
     {"mode", 'm', "sheet|cluster|point|auto", 0, "kind of light; sheet, the default, is exact", 0},
     {"lights", 'l', "N", 0,
      "sheet: at most N lights an axis (default: one on each uv sample); cluster: at most N lights "
-     "in all, up to 64 a page (default 16)",
+     "in all, up to 64 a page (default 16, of photometric files 24)",
      0},
     {"tolerance", KEY(tolerance), "T", 0, "as few lights as are at most T off (0.05 is 5 %)", 0},
     {"distance", KEY(distance), "D", 0, "where T holds, in aperture widths (default 4)", 0},
@@ -194,7 +194,8 @@ static enum result make_lights(const struct arguments *arguments,
                               .tolerance = arguments->tolerance,
                               .distance = arguments->distance,
                               .table = source->has_table ? &source->table : NULL};
-  if (wish.modes == INCLUDE_CLUSTER && !lights) lights = DEFAULT_CLUSTER;
+  if (wish.modes == INCLUDE_CLUSTER && !lights)
+    lights = source->has_table ? DEFAULT_CLUSTER_TABLE : DEFAULT_CLUSTER;
   enum result result = sdl_capitalise(given, name, error);
   if (result != RESULT_OK)
     advice = "; give one with --name";

@@ -175,6 +175,7 @@ static enum result choose_cluster(const struct slab *slabs, int count,
       .tolerance = wish->tolerance,
       .distance = wish->distance,
       .shadows = all_kinds,
+      .intensity = wish->table,
       .work = all_kinds ? fmax(least_seconds, ray_seconds * rays) / work_seconds : 0,
       .progress = wish->progress};
   return cluster_make(slabs, count, &fit, cluster, error);
@@ -241,7 +242,8 @@ enum result include_make(const struct slab *slabs, int count, const struct inclu
   switch (choice->mode) {
   case INCLUDE_CLUSTER:
     return cluster_make(slabs, count,
-                        &(struct cluster_wish){.lights = lights, .distance = wish->distance},
+                        &(struct cluster_wish){
+                            .lights = lights, .distance = wish->distance, .intensity = wish->table},
                         &choice->cluster, error);
   case INCLUDE_POINT:
     return point_make(slabs, count, wish->table, wish->distance, NULL, &choice->point, error);

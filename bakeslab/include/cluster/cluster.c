@@ -179,7 +179,7 @@ static enum result make_page(const struct slab *slab, int number, int place, int
                                  .progress = wish->progress,
                                  .begun = place / pages,
                                  .part = 1 / pages}};
-  enum result result = cluster_target_make(slab, distance, &work.target, error);
+  enum result result = cluster_target_make(slab, distance, wish->intensity, &work.target, error);
   if (result == RESULT_OK) result = cluster_gauge_make(slab, distance, &work.gauge, error);
   if (result == RESULT_OK)
     result = plane_shadow_make(slab, distance * plane_width(slab), &work.shadow, error);

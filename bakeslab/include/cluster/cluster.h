@@ -28,6 +28,7 @@ struct cluster_wish {
   double tolerance;          /* relative RMSE of each page */
   double distance;           /* where, in aperture widths */
   bool shadows;              /* also past an edge half way */
+  bool intensity;            /* errors count by solid angle (cluster_target.h) */
   double work;               /* at most about so much (cluster_fit.h), shared among the pages;
                                 0: no bound */
   struct progress *progress; /* or NULL */

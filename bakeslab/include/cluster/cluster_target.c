@@ -29,9 +29,10 @@ static const double margin = 1.25, gauge_margin = 1.1;
 /* The flux counts as much as this many planes. */
 static const double flux_weight = 5;
 
-/* Adds a plane's receivers, at equal angles. */
+/* Adds a plane's receivers, at equal angles. On a plane h away and at the angle theta, an intensity
+ * gives the irradiance I cos^3 / h^2, and an area is the solid angle times h^2 / cos^3. */
 static void add_plane(const struct slab *slab, const struct plane *plane, double weight,
-                      struct cluster_target *target) {
+                      bool intensity, struct cluster_target *target) {
   double width = plane_width(slab), square = 0;
   int first = target->count;
   /* Half as many as the sheet's errors need, which are ten times smaller. */
@@ -41,6 +42,8 @@ static void add_plane(const struct slab *slab, const struct plane *plane, double
       int k = target->count++;
       double at[2], area = plane_fan(plane, column + 0.5, row + 0.5, at);
       plane_irradiance(slab, points, at, plane->distance, target->rgb[k]);
+      double slope2 = (at[0] * at[0] + at[1] * at[1]) / (plane->distance * plane->distance);
+      if (intensity) area *= pow(1 + slope2, 1.5); /* 1 / cos^3 */
       for (int c = 0; c < 2; ++c) target->at[k][c] = at[c] / width;
       target->at[k][2] = plane->distance / width;
       target->weight[k] = sqrt(area);
@@ -60,7 +63,7 @@ static enum result make_room(int count, struct cluster_target *target, struct er
   return RESULT_OK;
 }
 
-enum result cluster_target_make(const struct slab *slab, double distance,
+enum result cluster_target_make(const struct slab *slab, double distance, bool intensity,
                                 struct cluster_target *target, struct error *error) {
   int room = 0;
   double width = plane_width(slab), most = 0;
@@ -71,7 +74,7 @@ enum result cluster_target_make(const struct slab *slab, double distance,
   memcpy(target->window, slab->st_window, sizeof target->window);
   for (int p = 0; p < PLANES; ++p) {
     struct plane plane = plane_make(slab, shares[p] * distance * width, margin, receivers[p]);
-    add_plane(slab, &plane, weights[p], target);
+    add_plane(slab, &plane, weights[p], intensity, target);
     target->narrowest = fmax(target->narrowest, plane_fan_step(&plane));
   }
   double *flux = target->rgb[target->count];
@@ -96,7 +99,7 @@ enum result cluster_gauge_make(const struct slab *slab, double distance,
   if (result != RESULT_OK) return result;
   struct plane plane = plane_make(slab, distance * plane_width(slab), gauge_margin, 0);
   plane.receivers = GAUGE_RECEIVERS;
-  add_plane(slab, &plane, 1, gauge);
+  add_plane(slab, &plane, 1, false, gauge);
   return RESULT_OK;
 }
 

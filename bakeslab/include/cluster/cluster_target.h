@@ -6,6 +6,8 @@
 #ifndef CLUSTER_TARGET_H
 #define CLUSTER_TARGET_H
 
+#include <stdbool.h>
+
 #include "include/cluster/cluster_light.h"
 #include "slab/slab.h"
 
@@ -21,8 +23,10 @@ struct cluster_target {
 };
 
 /* To fit to: receivers on planes around `distance`, and the flux, in units of its largest
- * channel. Free with cluster_target_free, also after a failure. */
-enum result cluster_target_make(const struct slab *slab, double distance,
+ * channel. With `intensity` each counts by the solid angle that it takes up, and what the light is
+ * seen from there, as if it faced the light: steep directions count as others do. Free with
+ * cluster_target_free, also after a failure. */
+enum result cluster_target_make(const struct slab *slab, double distance, bool intensity,
                                 struct cluster_target *target, struct error *error);
 
 /* To tell the error by: the whole plane at a distance, on many receivers, none of which is among
