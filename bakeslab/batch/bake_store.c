@@ -139,6 +139,7 @@ static enum result try_open(struct bake_store *store, int jobs, bool *again, str
   if (result != RESULT_OK) return result;
   result = bake_worker_join(store->directory, jobs, store->worker, again, error);
   if (*again) return RESULT_OK;
+  if (result != RESULT_OK) rmdir(store->directory); /* if nothing is in it */
   if (result != RESULT_OK || !is_being_removed(store)) return result;
   bake_worker_leave(store->worker);
   wait_a_moment();

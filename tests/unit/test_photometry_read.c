@@ -233,7 +233,7 @@ TEST(what_is_refused) {
   refuses(HEAD("1", "1") "0 90 0 1 1e999", "no finite number");
   refuses(HEAD("1", "1") "0 90 0 1", "cut off");
   refuses(HEAD("1", "1") "0 90 0 1 1 1", "1 numbers too many");
-  refuses("IESNA91\nTILT=NONE\n1 -1 0 2 1 1 2 0 0 0 1 1 5\n0 90 0 1 1", "multiply to 0");
+  refuses("IESNA91\nTILT=NONE\n1 -1 0 2 1 1 2 0 0 0 1 1 5\n0 90 0 1 1", "multiplier is 0");
   refuses(LDT("3", "6", "0", "0", "0\r\n0\r\n0\r\n0", ONE_SET) RATIOS, "multiple of 4");
   refuses(LDT("1", "1", "0", "0", "0\r\n0\r\n0\r\n0", "1\r\n1\r\nLED\r\n0\r\n\r\n\r\n\r\n") RATIOS,
           "no luminous flux");
