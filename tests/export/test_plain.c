@@ -85,7 +85,7 @@ static void texture(const struct picture *picture, double x, double y, double rg
 
 /* Projector::sample_direction; with fov 90 along x, and the receiver's cosine. */
 static void add_light(struct projector *projector, const double receiver[6], double rgb[3]) {
-  double local[3], texel[3], d[3], length2 = 0, along = 0, facing = 0;
+  double local[3], texel[3], d[3], along = 0, facing = 0;
   to_local(projector->matrix, receiver, local);
   const struct picture *picture = &projector->picture;
   double x = 0.5 - 0.5 * local[0] / local[2];
@@ -93,7 +93,6 @@ static void add_light(struct projector *projector, const double receiver[6], dou
   if (!(local[2] > 0 && x >= 0 && x <= 1 && y >= 0 && y <= 1)) return;
   for (int c = 0; c < 3; ++c) {
     d[c] = projector->matrix[c][3] - receiver[c];
-    length2 += d[c] * d[c];
     along -= d[c] * projector->matrix[c][2];
     facing += d[c] * receiver[3 + c];
   }

@@ -96,7 +96,7 @@ static void hand_down(const struct work *work, struct layer *layer, const struct
   for (int n = 0; n < pairs; ++n)
     for (int side = 0; side < 2; ++side) {
       /* halves along the first axis are in other layers, with lower numbers */
-      bool out = halves[n][side] < layer->first;
+      bool out = layer->half[side] && halves[n][side] < layer->first;
       struct share *to = out ? &layer->half[side][number - layer->first]
                              : &layer->here[halves[n][side] - layer->first];
       if (looked_into) to->chance += (float)(chance * shares[n]);

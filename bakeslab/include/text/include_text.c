@@ -57,6 +57,7 @@ struct brightness {
   double away;     /* lamp units */
   double start;    /* Gain */
   double exposure; /* EV at ISO 100, by which 1.2 * 2^EV cd/m2 is white */
+  const char *counted;
 };
 
 /* A matt surface shows E/pi, straight before a matt lamp twice the mean over the half sphere. */
@@ -68,7 +69,8 @@ static struct brightness find_brightness(const struct include_lamp *lamp) {
   double shows = 2 * lamp->flux / (2 * M_PI * away * away) / M_PI;
   double area = frame->metres_per_unit * frame->metres_per_unit;
   return (struct brightness){relative ? 0 : lamp->flux * area * unit, away, 1 / shows,
-                             log2(shows * unit / 1.2)};
+                             log2(shows * unit / 1.2),
+                             watts ? ", if a watt of its light is 179 lm" : ""};
 }
 
 void include_print(const char *template, const struct include_text *text,
@@ -77,6 +79,7 @@ void include_print(const char *template, const struct include_text *text,
   const struct include_check *check = &lamp->check;
   const char *housing = text->housing;
   uint64_t hash = housing ? include_hash(lamp->stamp, housing, strlen(housing)) : lamp->stamp;
+  const char *left_out = text->housing_left_out ? " that could be used." : ".";
   char stamp[17];
   snprintf(stamp, sizeof stamp, "%016" PRIx64, hash);
   const struct channel_rows gains = {lamp, "\n", gain_row, text->name},
@@ -85,7 +88,6 @@ void include_print(const char *template, const struct include_text *text,
                             names = {lamp, ", ", name_word, text->name},
                             variables = {lamp, ", ", variable_word, text->name};
   const struct brightness bright = find_brightness(lamp);
-  const bool watts = !strcmp(lamp->frame.radiance_unit, "W/(sr m2)");
   const struct include_value shared[] = {
       {"channels", .part = include_channels_inc},
       {"channel_count", .number = lamp->channel_count},
@@ -112,14 +114,12 @@ void include_print(const char *template, const struct include_text *text,
       {"chosen", .text = text->chosen, .write = sdl_comment},
       {"own_error", .text = text->own_error},
       {"housing", .text = housing},
-      {"no_housing", .text = housing                  ? NULL
-                             : text->housing_left_out ? " that could be used."
-                                                      : "."},
+      {"no_housing", .text = housing ? NULL : left_out},
       {"metres", .number = lamp->frame.metres_per_unit},
       {"radiance_unit", .text = lamp->frame.radiance_unit},
       {"flux_of_one", .number = lamp->flux},
       {"lumens", .number = bright.lumens},
-      {"counted", .text = watts ? ", if a watt of its light is 179 lm" : ""},
+      {"counted", .text = bright.counted},
       {"start", .number = bright.start},
       {"away", .number = bright.away},
       {"exposure", .number = bright.exposure},
