@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # demo.sh - the steps of `make demo` that are more than one command.
 #   demo.sh timed FILE COMMAND...        runs a command and writes its CPU seconds to FILE
-#   demo.sh render PICTURE.exr OPTION... renders demo.pov, with a log and the CPU seconds
+#   demo.sh render SCENE PICTURE OPTION... renders a scene of this folder, with a log and the
+#                                        CPU seconds
 #   demo.sh compare FOLDER               canned.exr against full.exr and renderslab.exr, as
 #                                        text and PNGs
+#   demo.sh corner FOLDER                tells what corner-canned.png and corner-full.png took
 set -euo pipefail
 here=$(dirname "$0")
 
@@ -17,17 +19,16 @@ timed() {
 }
 
 render() {
-  local picture=$1 base=${1%.exr}
-  shift
-  if ! timed "$base.seconds" povray "+I$here/demo.pov" "+O$picture" +FE +W320 +H160 -D -A "$@" \
-    >"$base.log" 2>&1; then
+  local scene=$1 picture=$2 base=${2%.*}
+  shift 2
+  if ! timed "$base.seconds" povray "+I$here/$scene.pov" "+O$picture" -D "$@" >"$base.log" 2>&1; then
     rm -f "$picture"
     echo "demo.sh: POV-Ray failed; see $base.log" >&2
     return 1
   fi
 }
 
-# Mean of a picture's green channel (the demo is grey).
+# Mean of a picture's green channel (demo.pov is grey).
 mean() {
   oiiotool "$@" --printstats -o "$scratch" | awk '/Stats Avg/ { print $4 }'
 }
@@ -67,6 +68,14 @@ The canned lamp in POV-Ray and in renderslab, which sums over the whole aperture
 over 16 x 16 lights: $(difference 1 "$canned" "$folder/renderslab.exr") RMS by pixel; renderslab took $(cat "$folder/renderslab.seconds") CPU seconds.
 
 Look at $folder/canned.png, renderslab.png, full.png and difference.png
+TEXT
+}
+
+corner() {
+  cat <<TEXT
+
+A furnished corner under the canned lamp, $1/corner-canned.png: $(cat "$1/corner-canned.seconds") CPU seconds.
+Under the whole lamp, with the blotches that radiosity has at equal time, $1/corner-full.png: $(cat "$1/corner-full.seconds").
 TEXT
 }
 
