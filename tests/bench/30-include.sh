@@ -8,7 +8,7 @@ script="$root/include-pov/demo.sh"
 
 heading "The demo's picture: canned against the whole lamp with its interreflection"
 mkdir -p demo
-cp "$DEMO"/*.seconds "$DEMO"/canned.exr "$DEMO"/full.exr demo
+cp "$DEMO"/*.seconds "$DEMO"/canned.exr "$DEMO"/full.exr "$DEMO"/renderslab.exr demo
 "$script" compare demo >compare.txt
 mean=$(awk '/^mean of/ { print $NF }' compare.txt)
 faster=$(calc %.1f "$(cat demo/full.seconds)/$(cat demo/canned.seconds)")
