@@ -121,10 +121,10 @@ engines: $(BIN) ## install Radiance, Mitsuba and Blender's bpy for tests, and ru
 	  engine_$$engine || echo "$${engine% *} cannot be installed: $(ENGINES)/*.log tell why" >&2; done'
 	@$(MAKE) --no-print-directory SETUP=no test T='export/%'
 
-bench: $(BIN) $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(BENCH_EXPORT) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr $(DEMO)/renderslab.exr ## measure, and print the tables of tests/RESULTS.md
+bench: $(BIN) $(B)/tests/chain/test_photometric $(B)/tests/unit/test_photometry_slab $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(BENCH_EXPORT) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr $(DEMO)/renderslab.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
-	  $(TEST_ENV) BUILD=$(abspath build/bench) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
+	  $(TEST_ENV) BUILD=$(abspath build/bench) TESTS=$(abspath $(B)/tests) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
 
 # EFFORT: seeds of each row, in proportion; CASE: one row and seed again, with all numbers.
 # Rows of POV-Ray's side are called pov-.

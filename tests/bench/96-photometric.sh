@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Photometric files as slabs: flux against the table's own integral, and what the far field is off,
-# at the default resolution. FILES= names others than those of lamps/.
+# at the default resolution. FILES= names others than those of lamps/. Then what the tests of the
+# far field through POV-Ray and of the near field measure; in them openings, not files, are named.
 set -euo pipefail
 # shellcheck source=tests/bench/bench.bash
 . "$(dirname "$0")/bench.bash"
@@ -16,3 +17,8 @@ for file in ${FILES:-"$root"/lamps/*.ies}; do
   row "$(basename "$file"): $(cat photometric/import.cpu) s, $samples samples" \
     "$(calc '%.2f %%' "100*$error")" "flux 0.5 %" "$(holds "$flux < 0.005 && $flux > -0.005")"
 done
+
+heading "intensities in 200 directions, 100 openings away, through POV-Ray (asked: 2 and 5 %)"
+"$TESTS/chain/test_photometric" | grep within
+heading "irradiance half an opening's width away, by import (asked: 3 %)"
+"$TESTS/unit/test_photometry_slab" | grep within

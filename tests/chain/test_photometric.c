@@ -186,10 +186,11 @@ static struct lamp lamps[] = {
     {"disc", 1, 13, 10, {0, 0}, {30, 10}, "-.2 -.2 0", 0.2, 30, 0, {{0}}},
     {"box, to 180 degrees", 1, 19, 37, {0, 0}, {20, 5}, ".1 .2 .05", 0.2, 4, 0, {{0}}},
     {"point", 1, 25, 37, {0, 0}, {15, 5}, "0 0 0", 0.1, 8, 0, {{0}}},
+    {"cylinder", 1, 19, 37, {0, 0}, {20, 5}, "-.1 -.1 .2", 0.2, 4, 0, {{0}}},
     {"type B, to its end", 2, 19, 19, {-90, -90}, {10, 10}, ".2 .3 0", 0.3, 12, 5, {{0}}},
     {"type A", 3, 19, 19, {-90, -90}, {10, 10}, ".1 .1 .1", 0.1, 12, 0, {{0}}},
 };
-enum { LAMPS = sizeof lamps / sizeof *lamps, SHEETS = 4 };
+enum { LAMPS = sizeof lamps / sizeof *lamps, SHEETS = 5 };
 
 /* The image is the table, but for the rounding of half floats, 2^-12, there and in POV-Ray's
  * picture. */
@@ -212,13 +213,12 @@ TEST(test_sheet) {
   }
 }
 
-/* Fitted to irradiance in the mean of squares, which single directions far from the lobe miss by
- * more. */
+/* Fitted by solid angle. */
 TEST(test_cluster) {
   fill(&lamps[0]);
   write_ies(&lamps[0]);
   struct errors errors = compare(&lamps[0], "--mode cluster --distance 100");
-  assert_true(errors.of_95 < 0.02 && errors.rms < 0.01);
+  assert_true(errors.of_95 < 0.02 && errors.most < 0.05);
 }
 
 int main(void) {
