@@ -88,6 +88,22 @@ static const struct value values[] = {
     {KEY(wish.polygons), VALUE_SIZE, ARGUMENT(wish.polygons), 0, 0},
     {0}};
 
+/* Options of other kinds are refused. */
+static void check_kind(const struct arguments *arguments, struct argp_state *state) {
+  const char *kind = arguments->kind->name;
+  const struct export_wish *wish = &arguments->wish;
+  bool rays = !strcmp(kind, "tm25ray") || !strcmp(kind, "rays"), cycles = !strcmp(kind, "cycles"),
+       mitsuba = !strcmp(kind, "mitsuba");
+  if (wish->polygons[0] && strcmp(kind, "radiance") != 0)
+    argp_error(state, "--polygons: is for --as radiance only");
+  if (wish->plain && !mitsuba) argp_error(state, "--plain: is for --as mitsuba only");
+  if (wish->blend && !cycles) argp_error(state, "--blend: is for --as cycles only");
+  if (!rays && (wish->rays || wish->seed >= 0))
+    argp_error(state, "--rays, --seed: are for ray files only");
+  if (wish->tolerance > 0 && (rays || cycles || (mitsuba && !wish->plain)))
+    argp_error(state, "--tolerance: --as %s approximates nothing that it could bound", kind);
+}
+
 static void check_arguments(struct arguments *arguments, struct argp_state *state) {
   if (!arguments->output) argp_error(state, "no output given: -o OUT");
   arguments->kind = export_kind_of(arguments->as, arguments->output);
@@ -96,19 +112,10 @@ static void check_arguments(struct arguments *arguments, struct argp_state *stat
   if (!arguments->kind)
     argp_error(state, "%s: its ending names no kind; give one of %s with --as", arguments->output,
                EXPORT_KINDS);
-  if (arguments->kind && arguments->wish.polygons[0] &&
-      strcmp(arguments->kind->name, "radiance") != 0)
-    argp_error(state, "--polygons: is for --as radiance only");
-  if (arguments->kind && arguments->wish.plain && strcmp(arguments->kind->name, "mitsuba") != 0)
-    argp_error(state, "--plain: is for --as mitsuba only");
-  if (arguments->kind && arguments->wish.blend && strcmp(arguments->kind->name, "cycles") != 0)
-    argp_error(state, "--blend: is for --as cycles only");
-  bool rays = arguments->kind &&
-              (!strcmp(arguments->kind->name, "tm25ray") || !strcmp(arguments->kind->name, "rays"));
-  if (arguments->kind && !rays && (arguments->wish.rays || arguments->wish.seed >= 0))
-    argp_error(state, "--rays, --seed: are for ray files only");
+  if (arguments->kind) check_kind(arguments, state);
   if (!arguments->wish.rays) arguments->wish.rays = 100000;
   if (arguments->wish.seed < 0) arguments->wish.seed = 1;
+  if (arguments->wish.tolerance == 0) arguments->wish.tolerance = 0.01;
 }
 
 static error_t parse_option(int key, char *text, struct argp_state *state) {
@@ -162,6 +169,6 @@ static enum result run(void *input, struct error *error) {
 int cmd_export(int argc, char **argv) {
   static const struct argp argp = {
       options, parse_option, "SLAB -o OUT [--as KIND]", doc, cli_options, NULL, NULL};
-  struct arguments arguments = {.wish = {.tolerance = 0.01, .seed = -1}};
+  struct arguments arguments = {.wish = {.seed = -1}};
   return cli_run(&argp, argc, argv, run, &arguments);
 }

@@ -61,6 +61,8 @@ export_it() { "$BAKESLAB" export "$@"; }
   refuses 2 --as novel radiance -- export_it lamp.tif -o out --as novel
   refuses 2 -o -- export_it lamp.tif --as radiance
   refuses 2 --polygons -- export_it lamp.tif -o out --as radiance --polygons 0x2
+  refuses 2 --tolerance -- export_it lamp.tif -o out --as cycles --tolerance 0.1
+  refuses 2 --tolerance -- export_it lamp.tif -o out.tm25ray --tolerance 0.1
   refuses 2 --tolerance -- export_it lamp.tif -o out --as radiance --tolerance 0
   refuses 2 --rays -- export_it lamp.tif -o lamp.ies --rays 10
   refuses 2 --seed -- export_it lamp.tif -o out --as cycles --seed 2
