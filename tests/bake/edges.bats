@@ -130,7 +130,7 @@ LAMP
 
 @test "a disk that fills: said so, and after making room the bake goes on" {
   mkdir disk
-  mount -t tmpfs -o size=4m none disk 2>/dev/null || skip 'needs the right to mount'
+  mount -t tmpfs -o size=5m none disk 2>/dev/null || skip 'needs the right to mount'
   slow_lamp
   slow -q -o whole.tif
   run -1 slow -o disk/x.tif --jobs 1
