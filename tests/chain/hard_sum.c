@@ -13,6 +13,9 @@ static const double edge = 1e-6;
 /* Texels are multiples of this share of the peak where they are less than 6e-5 of it. */
 static const double half_step = 6e-8;
 
+/* POV-Ray drops what a light adds below this in every channel, before the receiver's cosine. */
+static const double dropped = 1e-10;
+
 /* POV-Ray sees no shadow closer to a light or a surface. */
 static const double shadow_tolerance = 0.001;
 
@@ -267,15 +270,17 @@ static void add_light(const struct hard_case *lit, const struct hard_lamp *lamp,
       move(lamp, from, away);
       for (int c = 0; c < 3; ++c) away[c] = at[c] - away[c];
       double r = chain_length(away), cosine = chain_dot(away, axis) / (r * chain_length(axis));
-      double weight =
-          -chain_dot(away, lit->plane.normal) / r / nu / nv / M_PI * (size / r) * (size / r);
+      double strength = (size / r) * (size / r) / nu / nv / M_PI, most = 0;
+      double facing = -chain_dot(away, lit->plane.normal) / r;
       if (r < 0.2 * size) sum->doubt[k] = INFINITY; /* too near: it fades */
-      if (weight <= 0) continue;
+      if (facing <= 0) continue;
       for (int c = 0; c < 3; ++c) {
-        sum->rgb[k][c] += lamp->gain[c] * colour[c] * lobe(lobes, cosine) * weight;
-        if (sharp && fabs(cosine - outer) < edge)
-          sum->doubt[k] += fabs(lamp->gain[c]) * colour[c] * weight;
+        double shown = lamp->gain[c] * colour[c] * strength;
+        sum->rgb[k][c] += shown * lobe(lobes, cosine) * facing;
+        most = fmax(most, fabs(shown) * lobe(lobes, cosine));
+        if (sharp && fabs(cosine - outer) < edge) sum->doubt[k] += fabs(shown) * facing;
       }
+      if (most < dropped) sum->doubt[k] += most * facing;
     }
 }
 

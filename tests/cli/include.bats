@@ -50,6 +50,19 @@ setup() {
   done
 }
 
+@test "a faint lamp: how far POV-Ray shows its light, which drops what is below 1e-10" {
+  # 2x2 lights of 1e-8 on 0.2 x 0.2 units: 0.1 sqrt(1e-8 / pi / 1e-10) units; one light: twice.
+  raw_slab faint.tif '[2, 2, 4, 4]' 8 8 ', "name": "faint"' 322bcc77 322bcc77 322bcc77
+  for mode in "sheet 0.56" "point 1.1"; do
+    run -0 "$BAKESLAB" include faint.tif -o "${mode% *}.inc" --mode "${mode% *}"
+    grep -q "end ${mode#* } units away" "${mode% *}.inc"
+  done
+  run -0 "$BAKESLAB" include faint.tif -o c.inc --mode cluster --lights 1
+  grep -qE "end (0\.)?[1-9.]+ units away" c.inc
+  run -0 "$BAKESLAB" include even.tif -o a.inc --mode sheet
+  run -1 grep -q 'too faint (1e-10): even' a.inc
+}
+
 @test "more lights than a cluster may have" {
   refuses 1 "even.tif: 65 lights are too many for a cluster" "ask for --lights 64" -- "$BAKESLAB" include even.tif -o a.inc --mode cluster --lights 65
   [ ! -e a.inc ]

@@ -103,12 +103,24 @@ static void print_channels(const void *of, FILE *out) {
               include_channel(&cluster->lamp, &cluster->pages[p].frame));
 }
 
+/* Intensity of the brightest point of the page's lights, on their axes, at Scale 1. */
+static double brightest_point(const struct cluster_page *page) {
+  double width = plane_width(&page->frame), most = 0;
+  for (int k = 0; k < page->count; ++k) {
+    const struct cluster_light *light = &page->lights[k];
+    double of_all = fmax(light->rgb[0], fmax(light->rgb[1], light->rgb[2]));
+    most = fmax(most, of_all / (light->size[0] * light->size[1]));
+  }
+  return most * width * width;
+}
+
 void cluster_print(const struct cluster *cluster, const struct include_text *text, FILE *out) {
-  double narrowest = INFINITY;
+  double narrowest = INFINITY, faintest = INFINITY;
   int most = 1;
   for (int p = 0; p < cluster->page_count; ++p) {
     const struct cluster_page *page = &cluster->pages[p];
     narrowest = fmin(narrowest, plane_width(&page->frame));
+    faintest = fmin(faintest, brightest_point(page));
     for (int k = 0; k < page->count; ++k)
       for (int e = 0; e < 2; ++e)
         if (page->lights[k].size[e] > most) most = page->lights[k].size[e];
@@ -124,6 +136,7 @@ void cluster_print(const struct cluster *cluster, const struct include_text *tex
       {"colour_rows", .print = print_rows, .of = &(struct rows){cluster, print_colour}},
       {"channel_row", .print = print_channels, .of = cluster},
       {"least_width", .number = least_width},
+      {"reach", .number = include_reach(faintest, plane_width(&cluster->lamp.frame))},
       {0}};
   include_print(cluster_inc, text, &cluster->lamp, values, out);
 }

@@ -1,4 +1,6 @@
 /* point_text.c - the include file of a point light, point.inc.in. */
+#include <math.h>
+
 #include "include/point/point.h"
 
 extern const char point_inc[];
@@ -21,6 +23,8 @@ static void print_frame(const void *of, FILE *out) {
 void point_print(const struct point *point, const struct include_text *text, FILE *out) {
   const struct slab *frame = &point->lamp.frame;
   const struct point_table *table = point->table;
+  const double intensity =
+      fmax(point->intensity[0], fmax(point->intensity[1], point->intensity[2]));
   const double texels[2] = {point->picture.width, point->picture.height};
   double flux[3], percent[POINT_DISTANCES];
   for (int c = 0; c < 3; ++c)
@@ -34,6 +38,7 @@ void point_print(const struct point *point, const struct include_text *text, FIL
       {"frame", .print = print_frame, .of = point},
       {"width", .number = point->width},
       {"intensity", .numbers = point->intensity},
+      {"reach", .number = include_reach(intensity, point->width)},
       {"radius", .number = radius},
       {"most_radius", .number = most_radius},
       {"least_radius", .number = least_radius},

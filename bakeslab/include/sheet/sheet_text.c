@@ -11,9 +11,6 @@ extern const char sheet_inc[], sheet_page_inc[], sheet_face_inc[];
  * smallest above zero. */
 static const double half_normal = 6.1e-5, half_zero = 3e-8;
 
-/* POV-Ray drops what a light adds below this in every channel. */
-static const double dropped = 1e-10;
-
 /* Height of the openings that keep lights to their tiles, as a share of the sheet's height.
  * The higher, the wider they are, and the farther from the origin a lamp may stand: POV-Ray
  * tests their bounding boxes in single precision. It also wants its SMALL_TOLERANCE, 0.001
@@ -53,8 +50,6 @@ static void print_pages(const void *of, FILE *out) {
   for (int p = 0; p < sheet->page_count; ++p) {
     const struct sheet_page *page = &sheet->pages[p];
     const struct slab *slab = &page->levels[0].views;
-    double reach = sqrt(page->levels[0].peak * slab_spacing(slab, SLAB_U) *
-                        slab_spacing(slab, SLAB_V) / (M_PI * dropped));
     const struct include_value values[] = {
         {"page", .number = p + 1},
         {"channel", .text = slab->channel},
@@ -68,7 +63,6 @@ static void print_pages(const void *of, FILE *out) {
         {"flux_unit", .text = slab_flux_unit(slab)},
         {"faintest", .number = page->faintest < half_normal ? page->faintest : 0},
         {"lost", .text = page->faintest < half_zero ? ", and the faintest to nothing" : ""},
-        {"reach", .number = reach < 1e3 * plane_width(slab) ? reach : 0},
         {"table", .print = print_table, .of = page},
         {0}};
     if (p) putc('\n', out);
@@ -152,9 +146,15 @@ static void print_lit_rows(const void *of, FILE *out) {
 
 void sheet_print(const struct sheet *sheet, const struct include_text *text, FILE *out) {
   int levels = 0, rows = 0;
-  for (int p = 0; p < sheet->page_count; ++p)
+  double faintest = INFINITY;
+  for (int p = 0; p < sheet->page_count; ++p) {
+    const struct sheet_level *all = &sheet->pages[p].levels[0];
+    faintest = fmin(faintest, all->peak * slab_spacing(&all->views, SLAB_U) *
+                                  slab_spacing(&all->views, SLAB_V));
     for (int k = 0; k < sheet->pages[p].level_count; ++k, ++levels)
       rows += sheet->pages[p].levels[k].views.samples[SLAB_V];
+  }
+  const double reach = include_reach(faintest, plane_width(&sheet->lamp.frame));
   const struct include_value values[] = {{"pages", .print = print_pages, .of = sheet},
                                          {"face", .part = sheet_face_inc},
                                          {"lights", .number = sheet_most_lights(sheet)},
@@ -170,6 +170,7 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
                                          {"lit_count", .number = rows},
                                          {"lit_rows", .print = print_lit_rows, .of = sheet},
                                          {"mapping", .text = once},
+                                         {"reach", .number = reach},
                                          {"width", .number = sheet->picture.width},
                                          {"height", .number = sheet->picture.height},
                                          {"least_height", .number = least_height},

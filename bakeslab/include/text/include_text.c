@@ -135,6 +135,12 @@ void include_print(const char *template, const struct include_text *text,
   putc('\n', out);
 }
 
+double include_reach(double intensity, double width) {
+  static const double dropped = 1e-10; /* below this in every channel */
+  double reach = sqrt(intensity / (M_PI * dropped));
+  return reach < 1e3 * width ? reach : 0;
+}
+
 void include_put_frame(const struct slab *slab, const double center[3], const char *between,
                        FILE *out) {
   const double *vectors[4] = {slab->u, slab->v, slab->normal, center};

@@ -23,7 +23,7 @@ struct include_text {
 };
 
 /* Prints the whole include. A template may name, beside `values`, black_pages, channel_count and
- * most_width (of a lamp in the scene), and the parts
+ * most_width (of a lamp in the scene), and the parts, which want `reach` of `values`
  *   head, usage, units  what it is, how it is used, its units
  *   begin, end          guard and stamp; the housing's macro. Only the first of two includes of
  *                       one name declares it; the second finds out whether it is the same lamp
@@ -40,6 +40,11 @@ struct include_text {
  * The caller checks the stream. */
 void include_print(const char *template, const struct include_text *text,
                    const struct include_lamp *lamp, const struct include_value *values, FILE *out);
+
+/* `reach`: how far away POV-Ray shows anything of a light of this intensity (radiance times area,
+ * of its brightest channel, at Scale 1), in lamp units; 0 beyond 1000 widths of the lamp, where
+ * nobody looks. Of the brightest lights of the pages, the faintest counts. */
+double include_reach(double intensity, double width);
 
 /* Unit vectors along u, v and the normal, and the centre, with `between` between them. */
 void include_put_frame(const struct slab *slab, const double center[3], const char *between,
