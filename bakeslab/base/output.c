@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/temporary.h"
+
 /* TIFF and EXR are not written from front to back, as a pipe needs it: a temporary file first. */
 static enum result begin_stdout(struct output *output, struct error *error) {
   output->target = strdup("stdout");
@@ -55,21 +57,10 @@ static enum result find_target(struct output *output, const char *path, struct e
 static enum result begin_file(struct output *output, const char *path, struct error *error) {
   enum result result = find_target(output, path, error);
   if (result != RESULT_OK) return result;
-  char *temporary;
-  if (asprintf(&temporary, "%s.XXXXXX", output->target) < 0)
-    return result_at(result_no_memory(error), error, "%s", path);
-  output->fd = mkstemp(temporary);
-  if (output->fd < 0) {
-    result = result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
-    free(temporary);
-    return result;
-  }
-  output->temporary = temporary;
-  mode_t mask = umask(0);
-  umask(mask);
-  /* mkstemp made it private; a file system without modes does not matter. */
-  (void)!fchmod(output->fd, 0666 & ~mask);
-  return RESULT_OK;
+  output->temporary = temporary_file(output->target, &output->fd);
+  if (output->temporary) return RESULT_OK;
+  if (errno == ENOMEM) return result_at(result_no_memory(error), error, "%s", path);
+  return result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));
 }
 
 /* By whatever links; files that are not there are the same by name. */
@@ -141,7 +132,7 @@ static enum result rename_file(struct output *output, struct error *error) {
   if (close(fd) != 0 || rename(output->temporary, output->target) != 0)
     return result_fail(error, RESULT_IO, "%s: cannot be written: %s", output->target,
                        strerror(errno));
-  free(output->temporary);
+  temporary_keep(output->temporary);
   output->temporary = NULL;
   return RESULT_OK;
 }
@@ -166,8 +157,7 @@ enum result output_text(const char *path, const char *text, size_t length, struc
 
 void output_abandon(struct output *output) {
   if (output->target && output->fd >= 0) close(output->fd); /* 0 in a zeroed output */
-  if (output->temporary) unlink(output->temporary);
-  free(output->temporary);
+  temporary_remove(output->temporary);
   free(output->target);
   *output = (struct output){.fd = -1};
 }

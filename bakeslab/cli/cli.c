@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/temporary.h"
 #include "base/version.h"
 #include "cli/arguments.h"
 
@@ -263,6 +264,7 @@ int cli_main(const struct cli_program *program, int argc, char **argv) {
   /* An ignored SIGCHLD, as some parents leave it, would keep us from waiting for programs. */
   signal(SIGCHLD, SIG_DFL);
   signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error like a full disk */
+  temporary_mind_signals();
   atexit(close_stdout_at_exit);
   argp_err_exit_status = CLI_USAGE;
   snprintf(version, sizeof version, "%s " CANNED_VERSION, program->name);

@@ -5,12 +5,15 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/files.h"
+#include "base/temporary.h"
 
 const char export_folder_mark[] = "provenance.json";
+static const char unfinished[] = ".unfinished";
 
 static bool is_empty(const char *path) {
   DIR *directory = opendir(path);
@@ -51,31 +54,56 @@ static enum result check_target(struct export_folder *folder, bool force, struct
   return RESULT_OK;
 }
 
+/* What exports of the same target left that were killed: no process has it locked. */
+static void remove_left(const char *target) {
+  const char *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
+  char *parent = slash ? strndup(target, (size_t)(slash - target) + 1) : strdup(".");
+  DIR *directory = parent ? opendir(parent) : NULL;
+  size_t length = strlen(name), mark = strlen(unfinished);
+  for (const struct dirent *entry; directory && (entry = readdir(directory));) {
+    const char *after = entry->d_name + length;
+    if (strncmp(entry->d_name, name, length) != 0 || strncmp(after, unfinished, mark) != 0 ||
+        strlen(after) != mark + strlen(".XXXXXX"))
+      continue;
+    int lock =
+        openat(dirfd(directory), entry->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (lock < 0) continue;
+    char *path = flock(lock, LOCK_EX | LOCK_NB) == 0 ? files_join(parent, entry->d_name) : NULL;
+    if (path) files_remove_tree(path);
+    free(path);
+    close(lock);
+  }
+  if (directory) closedir(directory);
+  free(parent);
+}
+
+static enum result make_temporary(struct export_folder *folder, struct error *error) {
+  char *path = NULL;
+  if (asprintf(&path, "%s%s", folder->target, unfinished) < 0) return result_no_memory(error);
+  folder->temporary = temporary_folder(path);
+  int why = errno;
+  free(path);
+  if (!folder->temporary && why == ENOMEM) return result_no_memory(error);
+  if (!folder->temporary)
+    return result_fail(error, RESULT_IO, "%s: cannot make this folder: %s", folder->target,
+                       strerror(why));
+  folder->lock = open(folder->temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder->lock >= 0) flock(folder->lock, LOCK_SH); /* a file system without locks is fine */
+  return RESULT_OK;
+}
+
 enum result export_folder_begin(struct export_folder *folder, const char *path, bool force,
                                 struct error *error) {
-  *folder = (struct export_folder){.target = strdup(path)};
+  *folder = (struct export_folder){.target = strdup(path), .lock = -1};
   if (!folder->target) return result_no_memory(error);
   for (size_t end = strlen(path); end > 1 && path[end - 1] == '/';) folder->target[--end] = 0;
   enum result result = check_target(folder, force, error);
-  if (result == RESULT_OK && asprintf(&folder->temporary, "%s.XXXXXX", folder->target) < 0) {
-    folder->temporary = NULL;
-    result = result_no_memory(error);
+  if (result == RESULT_OK) {
+    remove_left(folder->target);
+    result = make_temporary(folder, error);
   }
-  if (result == RESULT_OK && !mkdtemp(folder->temporary)) {
-    result =
-        result_fail(error, RESULT_IO, "%s: cannot make this folder: %s", path, strerror(errno));
-    free(folder->temporary);
-    folder->temporary = NULL;
-  }
-  if (result != RESULT_OK) {
-    export_folder_abandon(folder);
-    return result;
-  }
-  mode_t mask = umask(0);
-  umask(mask);
-  /* mkdtemp made it private; a file system without modes does not matter. */
-  (void)!chmod(folder->temporary, 0777 & ~mask);
-  return RESULT_OK;
+  if (result != RESULT_OK) export_folder_abandon(folder);
+  return result;
 }
 
 enum result export_folder_commit(struct export_folder *folder, struct error *error) {
@@ -88,7 +116,7 @@ enum result export_folder_commit(struct export_folder *folder, struct error *err
     return result_fail(error, RESULT_IO, "%s: cannot be put in place: %s", folder->target,
                        strerror(errno));
   if (!folder->replace) {
-    free(folder->temporary);
+    temporary_keep(folder->temporary);
     folder->temporary = NULL;
   }
   export_folder_abandon(folder);
@@ -96,10 +124,10 @@ enum result export_folder_commit(struct export_folder *folder, struct error *err
 }
 
 void export_folder_abandon(struct export_folder *folder) {
-  if (folder->temporary) files_remove_tree(folder->temporary);
-  free(folder->temporary);
+  temporary_remove(folder->temporary);
+  if (folder->target && folder->lock >= 0) close(folder->lock); /* 0 in a zeroed folder */
   free(folder->target);
-  *folder = (struct export_folder){0};
+  *folder = (struct export_folder){.lock = -1};
 }
 
 FILE *export_folder_open(const char *folder, const char *stem, const char *ending,

@@ -1,5 +1,7 @@
 /* export_folder.h - a folder that appears whole or not at all: it is filled under a temporary
- * name beside the target, and renamed when all of it is on disk. */
+ * name beside the target, TARGET.unfinished.XXXXXX, and renamed when all of it is on disk. A signal
+ * that ends the program removes it (temporary.h); one that was killed leaves it, and the next
+ * export to the target removes it. */
 #ifndef EXPORT_FOLDER_H
 #define EXPORT_FOLDER_H
 
@@ -15,6 +17,7 @@ struct export_folder {
   char *target;    /* owned */
   char *temporary; /* owned; NULL when there is nothing to remove */
   bool replace;    /* the target is there and goes away */
+  int lock;        /* says to others that the temporary folder is in use */
 };
 
 /* Makes the temporary folder. Refuses a target that is there; with `force` one that is not an

@@ -45,6 +45,54 @@ export_it() { "$BAKESLAB" export "$@"; }
   [ -s out/other.rad ]
 }
 
+# A stand-in for Blender that never ends, and tells when it began: an export half done.
+start_export() {
+  printf '#!/bin/sh\ntouch "%s"\nexec sleep 60\n' "$PWD/begun" >slow && chmod +x slow
+  rm -f begun
+  set -m # or jobs ignore SIGINT
+  BLENDER=$PWD/slow "$BAKESLAB" export lamp.tif -o out --as cycles --blend -q "$@" 3>&- &
+  set +m
+  for ((k = 0; k < 500; ++k)); do
+    [ ! -e begun ] || return 0
+    sleep 0.01
+  done
+  false
+}
+
+# Ends it by a signal, of which it dies.
+end_export() {
+  local status=0
+  kill -"$1" $!
+  wait $! || status=$?
+  [ "$status" -eq $((128 + $1)) ]
+}
+
+@test "an export that is interrupted leaves nothing; what one leaves that is killed, the next removes" {
+  local number entries=$'begun\nlamp.tif\nslow'
+  for number in 1 2 15; do
+    start_export
+    compgen -G 'out.unfinished.??????/lamp.json'
+    end_export $number
+    [ "$(ls)" = "$entries" ]
+  done
+  export_it lamp.tif -o out --as cycles -q --name old
+  start_export --force
+  end_export 2
+  [ "$(ls)" = $'begun\nlamp.tif\nout\nslow' ]
+  [ "$(ls out)" = $'README.md\ncanned_lights.py\nexample.py\nold.exr\nold.json\nprovenance.json' ]
+  rm -r out
+  start_export
+  mkdir out.unfinished.mine other.unfinished.abcdef
+  end_export 9
+  start_export
+  # Of the three folders of that name, those that are nobody's go; one in use stays.
+  [ "$(find . -name 'out.unfinished.??????' | wc -l)" -eq 1 ]
+  export_it lamp.tif -o out --as cycles -q
+  [ "$(find . -name 'out.unfinished.??????' | wc -l)" -eq 1 ]
+  end_export 2
+  [ "$(ls)" = $'begun\nlamp.tif\nother.unfinished.abcdef\nout\nout.unfinished.mine\nslow' ]
+}
+
 @test "a lamp that Radiance cannot hold, and a name that is none" {
   raw_slab negative.tif '[1, 1, 2, 1]' 2 1 ', "name": "lamp"' 3f800000 3f800000 3f800000 3f800000 bf800000 3f800000
   refuses 1 negative.tif 'page 1' '(0, 0, 1, 0)' negative -- export_it negative.tif -o out --as radiance

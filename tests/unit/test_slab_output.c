@@ -4,8 +4,12 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/files.h"
+#include "base/output.h"
+#include "base/temporary.h"
 #include "helpers.h"
 
 /* A link is followed, and stays; or is refused where it leads nowhere. */
@@ -55,6 +59,34 @@ TEST(test_refused_targets) {
   rmdir(directory);
   assert_int_equal(scratch_entries(), before);
   slab_free(&slab);
+}
+
+/* A signal that ends a program removes its temporary files and folders, and nothing else. */
+TEST(test_signals_leave_nothing) {
+  static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+  write_bytes(scratch("target"), "old", 3);
+  int before = scratch_entries();
+  for (int k = 0; k < 3; ++k) {
+    pid_t child = fork();
+    if (child == 0) {
+      struct output kept, pending;
+      struct error error;
+      temporary_mind_signals();
+      bool made = output_begin(&kept, scratch("kept"), &error) == RESULT_OK &&
+                  output_commit(&kept, &error) == RESULT_OK &&
+                  output_begin(&pending, scratch("target"), &error) == RESULT_OK;
+      const char *folder = temporary_folder(scratch("folder"));
+      made = made && folder && files_write(folder, "file", "text", &error) == RESULT_OK;
+      if (made) raise(signals[k]);
+      _exit(1);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status));
+    assert_int_equal(WTERMSIG(status), signals[k]);
+    assert_int_equal(unlink(scratch("kept")), 0);
+    assert_int_equal(scratch_entries(), before);
+  }
 }
 
 /* A write that fails half-way (here: beyond a limit on file size) leaves the
