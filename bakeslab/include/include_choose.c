@@ -181,20 +181,13 @@ static enum result choose_cluster(const struct slab *slabs, int count,
   return cluster_make(slabs, count, &fit, cluster, error);
 }
 
-/* A far field, whose image holds all channels together, cannot dim one of them. */
-static bool has_channels(const struct slab *slabs, int count) {
-  bool any = false;
-  for (int n = 0; n < count; ++n) any |= slabs[n].channel[0] != 0;
-  return any;
-}
-
 static enum result make_offers(const struct slab *slabs, int count, const struct include_wish *wish,
                                struct include_choice *choice, struct offers *offers,
                                struct error *error) {
   double distance = wish->distance;
   enum result result = RESULT_OK;
   bool all_kinds = wish->modes == INCLUDE_ANY;
-  if (wish->modes & INCLUDE_POINT && !(all_kinds && has_channels(slabs, count))) {
+  if (wish->modes & INCLUDE_POINT) {
     result = point_make(slabs, count, wish->table, distance, wish->progress, &choice->point, error);
     if (result == RESULT_OK)
       offers->list[offers->count++] = (struct offer){.mode = INCLUDE_POINT,

@@ -103,6 +103,35 @@ static void expect_linear(const char *options) {
 TEST(test_gains_are_linear) {
   expect_linear("--mode sheet");
   expect_linear("--mode cluster --lights 2");
+  expect_linear("--mode point");
+}
+
+/* ---- The far field of channels, and of one slab that holds their sum ---- */
+
+TEST(test_far_field) {
+  static const double gains[2] = {0.3, 1.7};
+  struct slab pages[2];
+  struct picture parts, whole;
+  make_pages(2, pages);
+  chain_include(pages, 2, "lamp", "--mode point");
+  struct chain_lamp lamp = chain_lamp_of(pages, 2, 1);
+  struct chain_plane plane = chain_facing(&lamp, 0, 2);
+  render(&plane, gains[0], gains[1], &parts);
+  for (size_t k = 0; k < 3 * slab_sample_count(&pages[0]); ++k)
+    pages[0].rgb[k] =
+        (float)(gains[0] * (double)pages[0].rgb[k] + gains[1] * (double)pages[1].rgb[k]);
+  *pages[0].channel = '\0';
+  chain_include(pages, 1, "lamp", "--mode point");
+  render(&plane, 1, 1, &whole);
+  double worst = 0;
+  for (int k = 0; k < 3 * CHAIN_PIXELS; ++k) {
+    double wanted = (double)whole.rgb[k];
+    worst = fmax(worst, fabs((double)parts.rgb[k] - wanted) / fmax(wanted, 1e-2));
+  }
+  print_message("far field, parts and whole: worst %.2g\n", worst);
+  assert_true(worst <= 2e-3); /* three roundings to half floats */
+  picture_free(&parts), picture_free(&whole);
+  for (int n = 0; n < 2; ++n) slab_free(&pages[n]);
 }
 
 /* ---- Refused ---- */
@@ -114,8 +143,8 @@ TEST(test_refusals) {
                 "Test_Lamp_Canned_Channel: it has no channel \"wram\", but warm, cold"},
                {"", "#declare Test_Lamp_Gain_Cold = -1;",
                 "Test_Lamp_Canned: the gain of a channel is -1.0000, must be 0 or more"},
-               {"--mode point", "#declare Test_Lamp_Gain_Cold = 2;",
-                "Test_Lamp_Canned: a far field has all channels together"}};
+               {"--mode point", "Test_Lamp_Canned_Channel(\"wram\", 1)",
+                "Test_Lamp_Canned_Channel: it has no channel \"wram\", but warm, cold"}};
   struct slab pages[2];
   char sdl[512];
   make_pages(2, pages);

@@ -152,20 +152,3 @@ void point_table_free(struct point_table *table) {
   free(table->intensity);
   *table = (struct point_table){0};
 }
-
-/* A node's share falls linearly to 0 at its neighbours in the row, and at the rows h above and
- * below; the integral of the latter times the cosine of latitude is 2 cos(latitude) (1 - cos h)/h,
- * and 1 - sin(h)/h at the poles. */
-double point_table_flux(const struct point_table *table, const double *values) {
-  double h = M_PI / (table->rows - 1), width = 2 * M_PI / (table->columns - 1), flux = 0;
-  for (int j = 0; j < table->rows; ++j) {
-    double latitude = j * h - M_PI / 2, sum = 0;
-    bool pole = j == 0 || j == table->rows - 1;
-    double weight = pole ? 1 - sin(h) / h : 2 * cos(latitude) * (1 - cos(h)) / h;
-    for (int i = 0; i < table->columns; ++i)
-      sum += (i == 0 || i == table->columns - 1 ? 0.5 : 1) *
-             values[(size_t)j * (size_t)table->columns + (size_t)i];
-    flux += weight * width * sum;
-  }
-  return flux;
-}

@@ -24,7 +24,4 @@ enum result point_table_make(const struct photometry *lamp, struct point_table *
                              struct error *error);
 void point_table_free(struct point_table *table);
 
-/* The integral over all directions of what is bilinear between values at the nodes. */
-double point_table_flux(const struct point_table *table, const double *values);
-
 #endif

@@ -20,12 +20,22 @@ static void print_frame(const void *of, FILE *out) {
             vectors[k][2]);
 }
 
+static void print_peaks(const void *of, FILE *out) {
+  const struct point *point = of;
+  for (int n = 0; n < point->count; ++n)
+    fprintf(out, "%s%.10g", n ? ", " : "", point->intensity[n]);
+}
+
+static void print_channels(const void *of, FILE *out) {
+  const struct point *point = of;
+  for (int n = 0; n < point->count; ++n) fprintf(out, "%s%d", n ? ", " : "", point->channels[n]);
+}
+
 void point_print(const struct point *point, const struct include_text *text, FILE *out) {
   const struct slab *frame = &point->lamp.frame;
   const struct point_table *table = point->table;
-  const double intensity =
-      fmax(point->intensity[0], fmax(point->intensity[1], point->intensity[2]));
-  const double texels[2] = {point->picture.width, point->picture.height};
+  double brightest = 0;
+  for (int n = 0; n < point->count; ++n) brightest = fmax(brightest, point->intensity[n]);
   double flux[3], percent[POINT_DISTANCES];
   for (int c = 0; c < 3; ++c)
     flux[c] = point->flux[c] * (frame->metres_per_unit * frame->metres_per_unit);
@@ -37,15 +47,18 @@ void point_print(const struct point *point, const struct include_text *text, FIL
       {"percent", .numbers = percent},
       {"frame", .print = print_frame, .of = point},
       {"width", .number = point->width},
-      {"intensity", .numbers = point->intensity},
-      {"reach", .number = include_reach(intensity, point->width)},
+      {"reach", .number = include_reach(brightest, point->width)},
+      {"far_count", .number = point->count},
+      {"columns", .number = point->columns},
+      {"rows", .number = point->rows},
+      {"peak_row", .print = print_peaks, .of = point},
+      {"channel_row", .print = print_channels, .of = point},
       {"radius", .number = radius},
       {"most_radius", .number = most_radius},
       {"least_radius", .number = least_radius},
       {"small_scale", .number = least_radius / (radius * point->width)},
       {"least_scale", .number = least_radius / (most_radius * point->width)},
-      {"mapping", .text = table ? "" : "map_type 1 "},
-      {"texels", .numbers = table ? texels : NULL},
+      {"measured", .number = table != NULL},
       {"exact", .text = table && table->exact ? "on all of its angles" : NULL},
       {"fine", .text = table && !table->exact ? "closer than its angles" : NULL},
       {0}};

@@ -22,10 +22,6 @@ static const double gate = 0.5, gap = 0.00104, least_height = 0.0011;
  * closer than 0.001. */
 static const double behind = 0.0011;
 
-/* Nothing is seen beyond the image's edges; POV-Ray, where it is told so, does not look through
- * all of the image, once for each copy of the pigment, whether it is opaque. */
-static const char once[] = "once ";
-
 /* Rows of a page's table. */
 static void print_table(const void *of, FILE *out) {
   const struct sheet_page *page = of;
@@ -169,7 +165,6 @@ void sheet_print(const struct sheet *sheet, const struct include_text *text, FIL
                                          {"level_rows", .print = print_level_rows, .of = sheet},
                                          {"lit_count", .number = rows},
                                          {"lit_rows", .print = print_lit_rows, .of = sheet},
-                                         {"mapping", .text = once},
                                          {"reach", .number = reach},
                                          {"width", .number = sheet->picture.width},
                                          {"height", .number = sheet->picture.height},
