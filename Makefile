@@ -134,6 +134,7 @@ install: all $(LIB_FILES) $(MAN_PAGES) $(COMPLETIONS) ## install below DESTDIR a
 	$(Q)install -D -m 755 $(IMAGE) $(dest)/lib/canned/$(notdir $(IMAGE))
 	$(Q)for f in $(LIB_FILES); do install -D -m 644 $$f $(dest)/lib/canned/$${f##*/} || exit 1; done
 	$(Q)for f in $(DOC_FILES); do install -D -m 644 $$f $(dest)/share/doc/canned/$$f || exit 1; done
+	$(Q)ln -sfn ../../canned/include-pov $(dest)/share/doc/canned/include-pov # README's links
 	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done
 	$(Q)for f in $(COMPLETIONS); do install -D -m 644 $$f $(dest)/share/bash-completion/completions/$${f##*/} || exit 1; done
 	@echo 'installed bin/bakeslab, bin/renderslab, lib/canned, share/canned, share/man, share/bash-completion and share/doc/canned below $(dest)'

@@ -37,18 +37,23 @@ void picture_files_expose(const char *value, struct picture_files *files,
     argp_error(state, "--exposure %s: must be auto or a number from %g to %g", value, -most, most);
 }
 
+/* So many EV from its own exposure nothing much is seen of a picture. */
+static const double far_off = 6;
+
 static enum result write_png(const char *path, const struct picture_files *files,
                              const struct picture *picture, struct error *error) {
-  double white = white_at_zero / files->luminance * exp2(files->exposure);
-  enum result result = RESULT_OK;
+  double own, white = white_at_zero / files->luminance * exp2(files->exposure);
+  enum result result = preview_exposure(picture, &own, error);
+  if (result != RESULT_OK) return result;
+  double exposure = log2(own * files->luminance / white_at_zero);
   if (!files->exposed) {
-    result = preview_exposure(picture, &white, error);
-    if (result == RESULT_OK)
-      cli_note("%s: note: radiance %.4g is white; --exposure %.4f keeps it", path, white,
-               log2(white * files->luminance / white_at_zero));
+    white = own;
+    cli_note("%s: note: radiance %.4g is white; --exposure %.4f keeps it", path, white, exposure);
+  } else if (fabs(exposure - files->exposure) > far_off) {
+    cli_note("%s: note: --exposure %g leaves it nearly %s; auto would take %.1f", path,
+             files->exposure, exposure < files->exposure ? "black" : "white", exposure);
   }
-  return result == RESULT_OK ? preview_write(path, picture, white, cli_command_line(), error)
-                             : result;
+  return preview_write(path, picture, white, cli_command_line(), error);
 }
 
 /* Fills a picture with smooth values and random digits behind them: at the 17th bit, where floats

@@ -74,6 +74,12 @@ setup_file() {
   done
 }
 
+@test "the guides and pictures that the installed README names are installed" {
+  for file in $(grep -oE '\]\((include-pov|lamps)[^)#]*' "$PREFIX/share/doc/canned/README.md" | cut -c3-); do
+    [ -e "$PREFIX/share/doc/canned/$file" ] || { echo "README.md names $file"; false; }
+  done
+}
+
 @test "the reader in light-slab(5) compiles and agrees with the program" {
   cd "$BATS_TEST_TMPDIR"
   sed -n '/^#include <jansson/,/^}/p' "$ROOT/bakeslab/file/light-slab.5.scd" | sed 's/\\\\/\\/g' >reader.c

@@ -134,6 +134,10 @@ count() { sed -n "s/.*\"$1\": \([0-9]*\).*/\1/p" "$2"; }
   "$RENDERSLAB" image floor.obj --light letter_f.tif -o same.exr --size 9x3 -q --exposure auto \
     --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125 --preview same.png
   idiff -fail 0 -warn 0 sky.png same.png
+  # An exposure by which nothing is seen is told.
+  run -0 --separate-stderr "$RENDERSLAB" image floor.obj --light letter_f.tif -o sky.png --size 9x3 \
+    --exposure 6 --camera 'from=0,2,0 at=0,3,0 up=0,0,1' --background 0.5,0.25,0.125
+  [ "$stderr" = "renderslab: sky.png: note: --exposure 6 leaves it nearly black; auto would take -1.1" ]
 }
 
 @test "-o x.png is the preview itself" {

@@ -73,14 +73,23 @@ static struct brightness find_brightness(const struct include_lamp *lamp) {
                              watts ? ", if a watt of its light is 179 lm" : ""};
 }
 
+/* A lamp that is written in metres comes out too small in most scenes. */
+static const char *tell_centimetres(const struct slab *frame, char text[96]) {
+  double metres = frame->metres_per_unit;
+  *text = '\0';
+  if (metres > 0.01)
+    snprintf(text, 96, " (in a scene in centimetres Scale is %.4g: the lamp's unit is %.4g m)",
+             100 * metres, metres);
+  return text;
+}
+
 void include_print(const char *template, const struct include_text *text,
                    const struct include_lamp *lamp, const struct include_value *values, FILE *out) {
   static const char *const channels[3] = {"red", "green", "blue"};
-  const struct include_check *check = &lamp->check;
   const char *housing = text->housing;
   uint64_t hash = housing ? include_hash(lamp->stamp, housing, strlen(housing)) : lamp->stamp;
   const char *left_out = text->housing_left_out ? " that could be used." : ".";
-  char stamp[17];
+  char stamp[17], centimetres[96];
   snprintf(stamp, sizeof stamp, "%016" PRIx64, hash);
   const struct channel_rows gains = {lamp, "\n", gain_row, text->name},
                             cases = {lamp, "\n", case_row, text->name},
@@ -116,6 +125,7 @@ void include_print(const char *template, const struct include_text *text,
       {"housing", .text = housing},
       {"no_housing", .text = housing ? NULL : left_out},
       {"metres", .number = lamp->frame.metres_per_unit},
+      {"in_centimetres", .text = tell_centimetres(&lamp->frame, centimetres)},
       {"radiance_unit", .text = lamp->frame.radiance_unit},
       {"flux_of_one", .number = lamp->flux},
       {"lumens", .number = bright.lumens},
@@ -125,10 +135,10 @@ void include_print(const char *template, const struct include_text *text,
       {"exposure", .number = bright.exposure},
       {"black_pages", .number = lamp->black_pages},
       {"stamp", .text = stamp},
-      {"check", .numbers = check->at},
-      {"rgb", .numbers = check->rgb},
-      {"channel", .text = channels[check->channel]},
-      {"value", .number = check->rgb[check->channel]},
+      {"check", .numbers = lamp->check.at},
+      {"rgb", .numbers = lamp->check.rgb},
+      {"channel", .text = channels[lamp->check.channel]},
+      {"value", .number = lamp->check.rgb[lamp->check.channel]},
       {"most_width", .number = most_width},
       {.more = values}};
   include_fill(template, text->name, shared, out);
