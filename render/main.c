@@ -16,6 +16,9 @@ static const struct cli_program renderslab = {
     .name = "renderslab",
     .summary = "Light things with slabs: the reference renderer of canned light sources.",
     .commands = commands,
+    .examples = "  renderslab image room.obj --light 'lamp.tif at=0,190,20' \\\n"
+                "    --camera 'from=-60,140,-290 at=0,80,0 fov=50' -o room.png\n"
+                "  echo 0 0 0  0 1 0 | renderslab irradiance --light 'lamp.tif at=0,190,20'\n",
     .exit_status = "0 done, 1 failed, 2 usage"};
 
 int main(int argc, char **argv) {

@@ -34,9 +34,8 @@ static void print_channels(const void *of, FILE *out) {
 void point_print(const struct point *point, const struct include_text *text, FILE *out) {
   const struct slab *frame = &point->lamp.frame;
   const struct point_table *table = point->table;
-  double brightest = 0;
+  double flux[3], percent[POINT_DISTANCES], brightest = 0;
   for (int n = 0; n < point->count; ++n) brightest = fmax(brightest, point->intensity[n]);
-  double flux[3], percent[POINT_DISTANCES];
   for (int c = 0; c < 3; ++c)
     flux[c] = point->flux[c] * (frame->metres_per_unit * frame->metres_per_unit);
   for (int d = 0; d < POINT_DISTANCES; ++d) percent[d] = 100 * point->error[d];
