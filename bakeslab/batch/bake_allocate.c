@@ -2,9 +2,10 @@
  *
  * Neyman's optimal allocation of samples to strata, which are tiles:
  *
- * 1. Take the mean variance of each tile and its neighbours in other views. Were it the tile's own,
+ * 1. Take the mean variance of each tile and its neighbours along all axes. Were it the tile's own,
  *    tiles whose first rays missed light by chance would get no more, and the sum of all too little
- *    light (Kirk and Arvo 1991); rays of other views are independent.
+ *    light (Kirk and Arvo 1991). Rays of other views are independent; but a source that is smaller
+ *    than a view's cell shows in no other, and elsewhere in its own.
  * 2. For a scale f, a tile of the deviation d gets f d passes, rounded to a step of the ladder n,
  *    2 n, 4 n, ..., most, where n are those that it has.
  * 3. Bisect f between nothing more and "most wherever there is noise", for the largest that is
@@ -34,9 +35,9 @@ struct needs {
 /* Step 1 for the tile at a place in the grid of its page. */
 static double smooth_deviation(const struct bake_tiles *tiles, const double *deviation, int page,
                                const int at[SLAB_AXES], const int grid[SLAB_AXES]) {
-  int first = tiles->transposed ? SLAB_S : SLAB_U, count = 1;
+  int count = 1;
   double sum = pow(deviation[bake_tile_number(tiles, page, at)], 2);
-  for (int axis = first; axis < first + 2; ++axis)
+  for (int axis = 0; axis < SLAB_AXES; ++axis)
     for (int side = -1; side <= 1; side += 2) {
       int beside[SLAB_AXES];
       memcpy(beside, at, sizeof beside);
