@@ -6,6 +6,7 @@ def rounded: if . == 0 then 0 else . as $x | (fabs | log10 | floor) as $e
 def bytes: if . < 1e6 then "\([./1e3 | ceil, 1] | max) kB" else "\(./1e5 | round/10) MB" end;
 def metres: if . >= 1 then "\(rounded) m" elif . >= 0.01 then "\(.*100 | rounded) cm" else "\(.*1000 | rounded) mm" end;
 def seconds: if . < 90 then "\(rounded) s" else "\(./60 | rounded) min" end;
+def percent: "\(.*1000 | round/10) %";
 def edge($u): [$u[] | .*.] | add | sqrt;
 def plural($count; $word): "\($count) \($word)" + if $count == 1 then "" else "s" end;
 
@@ -16,11 +17,22 @@ def resolution: [.pages[].samples | "\(.[0]) × \(.[1]) positions, \(.[2]) × \(
 def flux: [.pages[].flux] | transpose | map(add | rounded) | "\(.[0]), \(.[1]), \(.[2])";
 def plane: [.pages[] | if .st_distance then .st_distance*.metres_per_unit | metres else "at infinity" end]
   | unique | join(", ");
-# Of the run that finished the bake.
-def time: (.log | capture("(?<all>[0-9]+) batches, (?<found>[0-9]+) of them found finished; .* (?<cpu>[0-9.]+) CPU s"))
+# Of the run that finished the bake, with the small bakes before it.
+def time: . as {$log}
+  | (($log | capture("small bakes before it took (?<cpu>[0-9.]+) CPU s") | .cpu | tonumber) // 0) as $before
+  | ($log | capture("(?<all>[0-9]+) batches, (?<found>[0-9]+) of them found finished; .* (?<cpu>[0-9.]+) CPU s"))
     // null
-  | if . == null then "not known" else "\(.cpu | tonumber | seconds) of a processor"
+  | if . == null then "not known" else "\((.cpu | tonumber) + $before | seconds) of a processor"
     + if .found != "0" then ", with \(.found) of \(.all) batches found finished" else "" end end;
+
+# What the slab tells of its error, by distance: the mean of its pages', by their flux.
+def told_error: .pages as $pages
+  | [$pages[].flux | add] as $flux
+  | ([$pages[] | edge(.u), edge(.v)] | max*$pages[0].metres_per_unit) as $width
+  | [$pages[].error] | transpose | map(
+      (if all(.all) and ($flux | add) > 0 then [[.[].all], $flux] | transpose | map(.[0]*.[1]) | add/($flux | add) | percent
+       else "not known" end) + " at \(.[0].apertures*$width | metres)")
+  | join(", ");
 
 # Of what was imported: what it comes from, and the notes of the import.
 def source: .pages[0].provenance.import
@@ -47,6 +59,7 @@ def card:
       + "</div>\n<table><caption>Figures</caption>\n"
       + row("flux, R, G, B"; "\(flux) \(.pages[0].flux_unit)") + row("size"; size) + row("resolution"; resolution)
       + row("st plane"; plane) + if .baked then row("baked in"; time) else row("imported from"; source) end
+      + row("error of irradiance"; told_error)
       + "</table>\n" + effects
       + @html "<h3>In a scene</h3>\n<pre><code>#include \"\(.name).inc\"\nobject { \(.macro)(1, 1) }"
       + (if .housing then @html "\nobject { \(.macro)_Housing() }" else "" end) + "</code></pre>\n<h3>Files</h3>\n<ul>\n"

@@ -57,6 +57,13 @@ figure() {
   card wall | figure 'flux, R, G, B' 'sqrt(8)*atan2(1, sqrt(2))*4*0.5'
   card box | figure 'flux, R, G, B' 'sqrt(8)*atan2(1, sqrt(2))*4*0.5*8'
   card box | grep -qF ': 2 pages'
+  # What the slab tells, and all CPU time that the bake told: of a page, and of two that are alike.
+  for lamp in wall box; do
+    card $lamp | grep -qF "error of irradiance</th><td>$("$BAKESLAB" info --json $lamp.tif |
+      jq '[.pages[].error[0].all] | add/length*1000 | round/10') % at 2 m, "
+    card $lamp | grep -qF "baked in</th><td>$(grep -oE '[0-9.]+ CPU s' $lamp.bake.log |
+      awk '{ sum += $1 } END { printf "%g", sum }') s of a processor"
+  done
   card wall | grep -qF 'object { Wall_Canned(1, 1) }'
   card wall | grep -q '<th scope="row">interreflection</th><td>off</td>'
   for file in wall.tif wall.inc wall.exr box.tif box.inc box.exr wall_washer.{tif,inc,exr}; do
