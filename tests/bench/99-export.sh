@@ -52,8 +52,8 @@ needed() {
 }
 
 heading 'A thin beam in Mitsuba, the torch: multijitter samples for 2 %'
-if ! "${MITSUBA_PYTHON:-python3}" -c 'import mitsuba' 2>/dev/null; then
-  row 'Mitsuba is not installed: make engines' -
+if ! "${MITSUBA_PYTHON:-python3}" "$root/tests/export/mitsuba_rays.py" irradiance 2>/dev/null; then
+  row 'Mitsuba with LLVM is not installed: make engines' -
   exit
 fi
 [ -f torch.tif ] || "$BAKESLAB" bake "$root/lamps/torch.pov" -o torch.tif --uv 16 --st 64 --rays 16 --yes -q

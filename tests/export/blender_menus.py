@@ -85,6 +85,12 @@ for wrong in (bad, os.path.join(folder, 'none.json'), os.path.join(folder, 'READ
         raise AssertionError(wrong)
     except RuntimeError as told:
         assert os.path.basename(wrong) in str(told), told
+canned_lights.bl_info['blender'] = (99, 0, 0)
+try:
+    bpy.ops.import_scene.light_slab(filepath=path)
+    raise AssertionError('an old Blender')
+except RuntimeError as told:
+    assert bpy.app.version_string in str(told), told
 assert before == (len(bpy.data.objects), len(bpy.data.images), len(bpy.data.collections))
 
 # The pictures are in the scene's file, and the lamp goes on without its folder.

@@ -1,7 +1,7 @@
 # blender_rays.py FOLDER NAME COUNT RAYS [placed] - looks into an exported lamp in Cycles, from two
 # eyes before each page. Writes COUNT rays out of the lamp, in lamp space, to the file RAYS, and
 # prints the radiance of each. placed: turned, mirrored, scaled and moved by its empty. Exit status
-# 77: no bpy.
+# 77: no bpy. Without arguments: only whether it is there.
 import json
 import math
 import os
@@ -14,6 +14,8 @@ try:
 except Exception as reason:
     print(f'no bpy: {reason}', file=sys.stderr)
     sys.exit(77)
+if len(sys.argv) == 1:
+    sys.exit()
 
 folder, name, count, path, *placed = sys.argv[1:]
 sys.dont_write_bytecode = True

@@ -1,11 +1,12 @@
 /* engine.h - other renderers, where they are installed: Mitsuba and Blender as modules of python3,
- * or of what MITSUBA_PYTHON and BLENDER_PYTHON name; Radiance's programs on the path. */
+ * or of what MITSUBA_PYTHON and BLENDER_PYTHON name; Radiance's programs on the path. Mitsuba takes
+ * samples only where DRJIT_LIBLLVM_PATH names an LLVM that compiles it. */
 #ifndef ENGINE_H
 #define ENGINE_H
 
 #include <stdbool.h>
 
-enum engine { RADIANCE, MITSUBA, BLENDER };
+enum engine { RADIANCE, MITSUBA_RAYS, MITSUBA, BLENDER };
 
 /* Whether it is there; says so where it is not. */
 bool engine_there(enum engine engine);

@@ -1,21 +1,31 @@
 # mitsuba_rays.py FOLDER NAME rays|sum|irradiance [KEY=VALUE...] - what Mitsuba 3 says of an exported
 # lamp, for rows on stdin, in its own space. rays: origin, direction: radiance. sum, irradiance:
 # point, normal: one sample of each emitter, or samples=N of multijitter (1024). Other keys are
-# parameters of NAME.xml. Exit status 77: no Mitsuba.
+# parameters of NAME.xml. mitsuba_rays.py rays|sum|irradiance: only whether it can. Exit status 77:
+# no Mitsuba, or none that is compiled, by the LLVM that DRJIT_LIBLLVM_PATH names, and rays are not
+# all that is asked. (An LLVM that it finds by itself may be too old, and abort.)
 import os
 import sys
 
+task = sys.argv[min(3, len(sys.argv) - 1)]
 try:
+    import drjit as dr
     import mitsuba as mi
     import numpy as np
-    mi.set_variant(os.environ.get('MITSUBA_VARIANT', 'llvm_ad_rgb'))
-    import drjit as dr
-    dr.eval(mi.Float(1) + dr.arange(mi.Float, 3))
+
+    scalar = 'DRJIT_LIBLLVM_PATH' not in os.environ
+    mi.set_variant('scalar_rgb' if scalar else 'llvm_ad_rgb')
+    if not scalar:
+        dr.eval(mi.Float(1) + dr.arange(mi.Float, 3))
+    elif task != 'rays':
+        raise ImportError('its compiled variants need DRJIT_LIBLLVM_PATH')
 except Exception as reason:
     print(f'no Mitsuba: {reason}', file=sys.stderr)
     sys.exit(77)
+if len(sys.argv) == 2:
+    sys.exit()
 
-folder, name, task, *more = sys.argv[1:]
+folder, name, _, *more = sys.argv[1:]
 parameters = dict(word.split('=') for word in more)
 samples = int(parameters.pop('samples', 1024)) if task == 'irradiance' else 1
 sys.dont_write_bytecode = True
@@ -27,10 +37,16 @@ os.chdir(folder)
 scene = mi.load_file(f'{name}.xml', **parameters)
 rows = np.loadtxt(sys.stdin, ndmin=2)
 if task == 'rays':
-    ray = mi.Ray3f(mi.Point3f(rows[:, :3].T), dr.normalize(mi.Vector3f(rows[:, 3:].T)))
-    hit = scene.ray_intersect(ray)
-    rgb = hit.emitter(scene).eval(hit, hit.is_valid())
-    out = np.array(rgb).T
+
+    def radiance(origin, direction):
+        hit = scene.ray_intersect(mi.Ray3f(mi.Point3f(origin), dr.normalize(mi.Vector3f(direction))))
+        emitter = hit.emitter(scene)
+        return [0, 0, 0] if emitter is None else emitter.eval(hit, hit.is_valid())
+
+    if scalar:
+        out = [radiance(row[:3], row[3:]) for row in rows.tolist()]
+    else:
+        out = np.array(radiance(rows[:, :3].T, rows[:, 3:].T)).T
 else:
     sampler = mi.load_dict({'type': 'multijitter', 'sample_count': samples})
     samples = sampler.sample_count()  # it rounds

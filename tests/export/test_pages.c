@@ -184,7 +184,7 @@ static const double place[3][4] = {{-1.5, 2, 0, 1}, {2, 1.5, 0, -2}, {0, 0, 2.5,
 static const char place_text[] = "rays 'place=-1.5 2 0 1 2 1.5 0 -2 0 0 2.5 .5 0 0 0 1'";
 
 TEST(rays_by_mitsuba) {
-  if (!engine_there(MITSUBA)) skip();
+  if (!engine_there(MITSUBA_RAYS)) skip();
   for (int n = 0; n < 2 * lamp_count; ++n) {
     const struct lamp *lamp = &lamps[n / 2];
     const char *folder = prepare(lamp, "--as mitsuba");
@@ -231,7 +231,7 @@ TEST(letter_reads_right) {
 }
 
 TEST(letter_by_mitsuba) {
-  if (!engine_there(MITSUBA)) skip();
+  if (!engine_there(MITSUBA_RAYS)) skip();
   prepare_letter();
   engine_mitsuba(lamp_export(lamp_letter(), "letter", "--as mitsuba"), "letter", "rays", there,
                  LETTER_FIELDS, got);

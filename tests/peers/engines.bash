@@ -1,6 +1,7 @@
 # engines.bash - other renderers, from PyPI and Debian, in the scratch folder $ENGINES: Mitsuba 3 and
-# Radiance in venv, Blender's module bpy, which asks for a numpy of its own, in bpy. Needs the
-# network once. Sourced; errors of pip go to $ENGINES/*.log.
+# Radiance in venv, in the versions that were measured; Blender's module bpy, which asks for a numpy
+# of its own, in bpy. Needs the network once. Sourced; errors of pip go to $ENGINES/*.log. pip has
+# ENGINE_SECONDS (900) for each.
 # shellcheck shell=bash
 : "${ENGINES:?is the folder for them}"
 mkdir -p "$ENGINES"
@@ -11,19 +12,22 @@ mitsuba_python=$ENGINES/venv/bin/python blender_python=$ENGINES/bpy/bin/python
 engine_python() {
   local venv=$ENGINES/$1 module=$2
   shift 2
-  if [ ! -x "$venv/bin/python" ] && ! python3 -m venv "$venv" >&2; then
+  if [ ! -x "$venv/bin/python" ] && ! python3 -m venv "$venv" >"$venv.log" 2>&1; then
     echo 'engines.bash: python3 -m venv does not work here; the Debian package is python3-venv' >&2
     return 1
   fi
   "$venv/bin/python" -c "import $module" 2>/dev/null && return
-  "$venv/bin/python" -m pip install -q "$@" >"$venv-$module.log" 2>&1 && "$venv/bin/python" -c "import $module" 2>>"$venv-$module.log"
+  timeout "${ENGINE_SECONDS:-900}" "$venv/bin/python" -m pip install -q --retries 1 --timeout 15 "$@" >"$venv-$module.log" 2>&1 &&
+    "$venv/bin/python" -c "import $module" 2>>"$venv-$module.log"
 }
 
 # Mitsuba's fast variants compile by LLVM, newer than the default of Debian 12; engine_mitsuba KIND
-# names the variant llvm_ad_KIND in MITSUBA_VARIANT where that is at hand, else scalar_rgb.
+# names the variant llvm_ad_KIND in MITSUBA_VARIANT where that is at hand, else scalar_rgb, as without
+# a KIND.
 engine_mitsuba() {
   local llvm=$ENGINES/debian/usr/lib/x86_64-linux-gnu/libLLVM-19.so
-  engine_python venv mitsuba mitsuba numpy || return
+  engine_python venv mitsuba mitsuba==3.9.1 numpy || return
+  [ -n "${1-}" ] || return 0
   [ -e "$llvm" ] || {
     mkdir -p "$ENGINES/debian"
     (cd "$ENGINES/debian" && apt-get -q download libllvm19 && dpkg -x libllvm19_*.deb .) >"$ENGINES/debian.log" 2>&1 || true
@@ -36,7 +40,7 @@ engine_mitsuba() {
 engine_radiance() {
   local radiance
   command -v rtrace >/dev/null && return
-  engine_python venv pyradiance pyradiance || return
+  engine_python venv pyradiance pyradiance==1.3.1 || return
   radiance=$(echo "$ENGINES"/venv/lib/python3*/site-packages/pyradiance)
   [ -d "$radiance/bin" ] || return
   export PATH=$radiance/bin:$PATH RAYPATH=.:$radiance/lib
@@ -44,3 +48,15 @@ engine_radiance() {
 
 # The newest Blender that this python3 can have, without a window.
 engine_blender() { engine_python bpy bpy bpy; }
+
+# engines_install ENGINE...: radiance, mitsuba (rays alone), llvm (Mitsuba's samples), blender.
+engines_install() {
+  local engine missing=
+  for engine; do
+    case $engine in
+      llvm) engine_mitsuba rgb && [ "$MITSUBA_VARIANT" != scalar_rgb ] ;;
+      *) "engine_$engine" ;;
+    esac || missing+=", $engine"
+  done
+  [ -z "$missing" ] || echo "not installed: ${missing#, }; their rays are skipped ($ENGINES/*.log tell why)"
+}
