@@ -238,7 +238,7 @@ def add_page(lamp, name, page, image, collection):
 def add_lamp(path, scene, place=None, gain=1.0):
     """Adds a lamp to a scene, in a collection of its own; its empty."""
     if bpy.app.version < bl_info['blender']:  # lights know no space of their own, and shine wrongly
-        raise LampError(f'{path}: needs Blender 4.2 or newer; this is {bpy.app.version_string}')
+        raise LampError(f'Blender 4.2 or newer is needed; this is {bpy.app.version_string}')
     name, pages = read(path)
     pages = [(Page(page), load_image(os.path.join(os.path.dirname(path), page['image']),
                                      page['samples'])) for page in pages]

@@ -32,6 +32,11 @@ const struct export_kind *export_kind_of(const char *name, const char *output) {
 }
 
 enum result export_check_name(const char *name, struct error *error) {
+  static const char *const taken[] = {"example", "provenance"};
+  for (int k = 0; k < 2; ++k)
+    if (!strcasecmp(name, taken[k]))
+      return result_fail(error, RESULT_BAD, "the name \"%s\" is that of a file beside the lamp's",
+                         name);
   return sdl_check_identifier(name, LONGEST_NAME, error);
 }
 

@@ -10,7 +10,8 @@ const struct export_kind *export_kind_of(const char *name, const char *output);
 /* The names of all kinds, for an option's words (values.h), and as a list in a sentence. */
 #define EXPORT_KINDS "radiance|mitsuba|cycles|ies|ldt|tm25ray|rays"
 
-/* Letters, digits and _, a letter first: a name that all the programs can hold. */
+/* Letters, digits and _, a letter first: a name that all the programs can hold; and not that of a
+ * file which each folder holds. */
 enum result export_check_name(const char *name, struct error *error);
 
 /* Before the work: refuses an output that cannot be written, or is there without `force`. A folder

@@ -98,6 +98,8 @@ end_export() {
   refuses 1 negative.tif 'page 1' '(0, 0, 1, 0)' negative -- export_it negative.tif -o out --as radiance
   raw_slab nameless.tif '[1, 1, 1, 1]' 1 1 ', "name": "2 lamps"' 3f800000
   refuses 1 nameless.tif '"2 lamps"' --name -- export_it nameless.tif -o out --as radiance
+  local name
+  for name in example Provenance; do refuses 1 "\"$name\"" 'a file beside' --name -- export_it lamp.tif -o out --as cycles --name $name; done
   export_it nameless.tif -o out --as radiance -q --name two_lamps --polygons 2x1
   [ "$(grep -c ' polygon ' out/two_lamps.rad)" -eq 2 ]
   # One data file is enough where R = G = B.
