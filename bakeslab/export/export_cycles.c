@@ -20,11 +20,8 @@ static enum result write_texts(const struct slab *slabs, int count, const struct
   const struct export_text texts[] = {
       {export_cycles_example, "example", ".py"}, {export_cycles_md, "README", ".md"}, {0}};
   const struct include_value values[] = {
-      {"floor", .numbers = scene.floor},      {"eye", .numbers = scene.eye},
-      {"target", .numbers = scene.target},    {"metres", .number = first->metres_per_unit},
-      {"unit", .text = first->radiance_unit}, {"rays", .number = ray_error},
-      {"blend", .number = wish->blend},       {0}};
-  return export_texts(folder, wish->name, texts, values, error);
+      {"rays", .number = ray_error}, {"blend", .number = wish->blend}, {0}};
+  return export_texts(folder, wish->name, texts, first, &scene, values, error);
 }
 
 static void tell(const struct slab *slabs, int count, const struct export_wish *wish) {

@@ -63,16 +63,11 @@ static enum result write_texts(const struct slab *slabs, int count, const struct
   const struct slab *first = export_pages_first(slabs, count);
   const struct export_scene scene = export_scene_of(first, export_y_up);
   const struct include_value values[] = {{"shapes", .print = put_pages, .of = &lamp},
-                                         {"floor", .print = export_put_floor, .of = &scene},
-                                         {"eye", .numbers = scene.eye},
-                                         {"target", .numbers = scene.target},
-                                         {"up", .numbers = scene.up},
-                                         {"metres", .number = first->metres_per_unit},
-                                         {"unit", .text = first->radiance_unit},
+                                         {"floor_matrix", .print = export_put_floor, .of = &scene},
                                          {"rays", .number = ray_error},
                                          {"samples", .number = example_samples},
                                          {0}};
-  return export_texts(folder, wish->name, texts, values, error);
+  return export_texts(folder, wish->name, texts, first, &scene, values, error);
 }
 
 enum result export_mitsuba(const struct slab *slabs, int count, const struct export_wish *wish,

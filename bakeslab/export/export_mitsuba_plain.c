@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "export/export_errors.h"
 #include "export/export_frame.h"
 #include "export/export_pages.h"
 #include "export/export_provenance.h"
@@ -51,16 +52,17 @@ static void put_projectors(const void *of, FILE *out) {
     projectors_put(&lamp->pages[k].projectors, lamp->pages[k].stem, out);
 }
 
+static struct export_errors errors_of(const struct page *page) {
+  return (struct export_errors){page->number, "positions", page->projectors.texels.samples,
+                                page->projectors.error};
+}
+
 /* Lines of the error at each distance. */
 static void put_errors(const void *of, FILE *out) {
   const struct lamp *lamp = of;
   for (int k = 0; k < lamp->count; ++k) {
-    const struct projectors *projectors = &lamp->pages[k].projectors;
-    for (int d = 0; d < PROJECTORS_DISTANCES; ++d)
-      fprintf(out, "%s  - page %d, %dx%d positions, %g aperture width%s away: %.2g %%",
-              k || d ? "\n" : "", lamp->pages[k].number, projectors->texels.samples[SLAB_U],
-              projectors->texels.samples[SLAB_V], projectors_distances[d],
-              projectors_distances[d] == 1 ? "" : "s", 100 * projectors->error[d]);
+    const struct export_errors errors = errors_of(&lamp->pages[k]);
+    export_errors_put(&errors, k ? "\n  - " : "  - ", out);
   }
 }
 
@@ -74,29 +76,19 @@ static enum result write_texts(const struct slab *first, const struct lamp *lamp
   const struct include_value values[] = {{"projectors", .print = put_projectors, .of = lamp},
                                          {"samples", .number = lamp->lit},
                                          {"errors", .print = put_errors, .of = lamp},
-                                         {"floor", .print = export_put_floor, .of = &scene},
-                                         {"eye", .numbers = scene.eye},
-                                         {"target", .numbers = scene.target},
-                                         {"up", .numbers = scene.up},
-                                         {"metres", .number = first->metres_per_unit},
-                                         {"unit", .text = first->radiance_unit},
+                                         {"floor_matrix", .print = export_put_floor, .of = &scene},
                                          {0}};
-  return export_texts(folder, lamp->wish->name, texts, values, error);
+  return export_texts(folder, lamp->wish->name, texts, first, &scene, values, error);
 }
 
 static enum result record(const struct slab *slabs, int count, const struct lamp *lamp,
                           const char *folder, struct error *error) {
   unsigned long mark = json_mark();
   json_t *errors = json_array();
-  for (int k = 0; k < lamp->count; ++k)
-    for (int d = 0; d < PROJECTORS_DISTANCES; ++d) {
-      const struct projectors *projectors = &lamp->pages[k].projectors;
-      json_array_append_new(
-          errors, json_pack("{s:i, s:[i,i], s:f, s:f}", "page", lamp->pages[k].number, "positions",
-                            projectors->texels.samples[SLAB_U], projectors->texels.samples[SLAB_V],
-                            "aperture_widths", projectors_distances[d], "irradiance_rms",
-                            projectors->error[d]));
-    }
+  for (int k = 0; k < lamp->count; ++k) {
+    const struct export_errors page = errors_of(&lamp->pages[k]);
+    export_errors_record(&page, errors);
+  }
   return export_provenance(slabs, count, lamp->wish, "mitsuba", errors, mark, folder, error);
 }
 
@@ -104,7 +96,7 @@ static void tell(const struct lamp *lamp) {
   struct warnings *notes = lamp->wish->notes;
   for (int k = 0; k < lamp->count; ++k) {
     const struct projectors *projectors = &lamp->pages[k].projectors;
-    const double *widths = projectors_distances;
+    const double *widths = export_distances;
     warnings_add(notes,
                  "page %d: %dx%d positions: irradiance %g, %g and %g aperture widths away errs "
                  "%.2g, %.2g and %.2g %% (RMS)",

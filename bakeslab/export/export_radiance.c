@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/sdl.h"
+#include "export/export_errors.h"
 #include "export/export_frame.h"
 #include "export/export_provenance.h"
 #include "export/export_text.h"
@@ -17,15 +18,12 @@ extern const char export_radiance_rad[], export_radiance_md[], export_radiance_e
 
 const double export_radiance_efficacy = 179;
 
-enum { DISTANCES = 3 };
-static const double distances[DISTANCES] = {1, 2, 4}; /* that are told, in aperture widths */
-
 /* A page with light. */
 struct page {
   const struct slab *slab;
   int number;
   struct radiance_source source;
-  double error[DISTANCES];
+  double error[EXPORT_DISTANCES];
   char stem[SLAB_NAME_SIZE + 16];
 };
 
@@ -51,8 +49,8 @@ static enum result check_radiance(const struct slab *slab, int number, struct er
 static void cut_aperture(const struct export_wish *wish, struct page *page) {
   page->source = wish->polygons[0] > 0 ? radiance_source_make(page->slab, wish->polygons)
                                        : radiance_source_choose(page->slab, wish->tolerance);
-  for (int k = 0; k < DISTANCES; ++k)
-    page->error[k] = radiance_source_error(page->slab, &page->source, distances[k]);
+  for (int k = 0; k < EXPORT_DISTANCES; ++k)
+    page->error[k] = radiance_source_error(page->slab, &page->source, export_distances[k]);
 }
 
 static void add_page(struct lamp *lamp, const struct slab *slab, int number) {
@@ -151,15 +149,16 @@ static void put_pages(const void *of, FILE *out) {
   for (int page = 0; page < lamp->count; ++page) put_page(&lamp->pages[page], out);
 }
 
+static struct export_errors errors_of(const struct page *page) {
+  return (struct export_errors){page->number, "polygons", page->source.polygons, page->error};
+}
+
 /* Lines of the error at each distance. */
 static void put_errors(const void *of, FILE *out) {
   const struct lamp *lamp = of;
   for (int k = 0; k < lamp->count; ++k) {
-    const struct page *page = &lamp->pages[k];
-    for (int d = 0; d < DISTANCES; ++d)
-      fprintf(out, "%s#   page %d, %dx%d polygons, %g aperture width%s away: %.2g %%",
-              k || d ? "\n" : "", page->number, page->source.polygons[0], page->source.polygons[1],
-              distances[d], distances[d] == 1 ? "" : "s", 100 * page->error[d]);
+    const struct export_errors errors = errors_of(&lamp->pages[k]);
+    export_errors_put(&errors, k ? "\n#   " : "#   ", out);
   }
 }
 
@@ -179,16 +178,11 @@ static enum result write_texts(const struct lamp *lamp, const char *folder, stru
       {"ds", .number = radiance_source_ds},
       {"errors", .print = put_errors, .of = lamp},
       {"sources", .print = put_pages, .of = lamp},
-      {"metres", .number = first->metres_per_unit},
-      {"unit", .text = first->radiance_unit},
       {"photometric", .number = !strcmp(first->radiance_unit, "cd/m2")},
       {"relative", .number = !strcmp(first->radiance_unit, "relative")},
-      {"floor", .numbers = scene.floor},
-      {"eye", .numbers = scene.eye},
       {"view", .numbers = view},
-      {"up", .numbers = scene.up},
       {0}};
-  return export_texts(folder, lamp->wish->name, texts, values, error);
+  return export_texts(folder, lamp->wish->name, texts, first, &scene, values, error);
 }
 
 static enum result record(const struct slab *slabs, int count, const struct lamp *lamp,
@@ -196,12 +190,8 @@ static enum result record(const struct slab *slabs, int count, const struct lamp
   unsigned long mark = json_mark();
   json_t *errors = json_array();
   for (int k = 0; k < lamp->count; ++k) {
-    const struct page *page = &lamp->pages[k];
-    for (int d = 0; d < DISTANCES; ++d)
-      json_array_append_new(errors, json_pack("{s:i, s:[i,i], s:f, s:f}", "page", page->number,
-                                              "polygons", page->source.polygons[0],
-                                              page->source.polygons[1], "aperture_widths",
-                                              distances[d], "irradiance_rms", page->error[d]));
+    const struct export_errors page = errors_of(&lamp->pages[k]);
+    export_errors_record(&page, errors);
   }
   return export_provenance(slabs, count, lamp->wish, "radiance", errors, mark, folder, error);
 }

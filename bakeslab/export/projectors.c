@@ -9,9 +9,7 @@
 #include "slab/plane.h"
 #include "slab/slab_resample.h"
 
-const double projectors_distances[PROJECTORS_DISTANCES] = {1, 2, 4};
-
-enum { JUDGED = PROJECTORS_DISTANCES - 1 }; /* the distance at which the tolerance is kept */
+enum { JUDGED = EXPORT_DISTANCES - 1 }; /* the distance at which the tolerance is kept */
 enum { LEAST = 4, MOST = 32, MOST_TEXELS = 1 << 25, FILE_NAME_SIZE = SLAB_NAME_SIZE + 48 };
 static const double least_aside = 0.05; /* of 1 + c.(x, y), by which Mitsuba divides */
 
@@ -122,8 +120,7 @@ static enum result refuse(const struct projectors *tried, const int next[SLAB_AX
   return result_fail(error, RESULT_BAD,
                      "%dx%d projectors, the most that fit, err %.2g %% %g aperture widths away: "
                      "leave out --plain, or give a --tolerance above that",
-                     n[SLAB_U], n[SLAB_V], 100 * tried->error[JUDGED],
-                     projectors_distances[JUDGED]);
+                     n[SLAB_U], n[SLAB_V], 100 * tried->error[JUDGED], export_distances[JUDGED]);
 }
 
 enum result projectors_make(const struct slab *slab, double tolerance,
@@ -142,10 +139,10 @@ enum result projectors_make(const struct slab *slab, double tolerance,
     slab_free(&projectors->texels);
     enum result result = make(slab, samples, &projectors->texels, error);
     if (result != RESULT_OK) return result;
-    projectors->error[JUDGED] = error_at(slab, &projectors->texels, projectors_distances[JUDGED]);
+    projectors->error[JUDGED] = error_at(slab, &projectors->texels, export_distances[JUDGED]);
     if (projectors->error[JUDGED] > tolerance) continue;
     for (int k = 0; k < JUDGED; ++k)
-      projectors->error[k] = error_at(slab, &projectors->texels, projectors_distances[k]);
+      projectors->error[k] = error_at(slab, &projectors->texels, export_distances[k]);
     return RESULT_OK;
   }
   return refuse(projectors, samples, error);

@@ -17,14 +17,12 @@
 
 #include <stdio.h>
 
+#include "export/export_errors.h"
 #include "slab/slab.h"
 
-enum { PROJECTORS_DISTANCES = 3 };
-extern const double projectors_distances[PROJECTORS_DISTANCES]; /* in aperture widths */
-
 struct projectors {
-  struct slab texels;                 /* the page on their positions, texels for radiance; owned */
-  double error[PROJECTORS_DISTANCES]; /* relative RMS of irradiance on a plane at each distance */
+  struct slab texels;             /* the page on their positions, texels for radiance; owned */
+  double error[EXPORT_DISTANCES]; /* relative RMS of irradiance on a plane at each distance */
 };
 
 /* Refuses a page that no projectors can carry: a window far aside, and an error four
