@@ -10,6 +10,7 @@ V :=
 BAKE_BIN := $(B)/bin/bakeslab
 RENDER_BIN := $(B)/bin/renderslab
 BIN := $(BAKE_BIN) $(RENDER_BIN)
+FARM := $(B)/bin/canned-slurm $(B)/bin/canned-parallel
 prefix ?= /usr/local
 
 ifeq ($(origin CC),default)
@@ -34,7 +35,7 @@ quote = '$(subst ','\'',$(1))'
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
-.PHONY: FORCE all help setup man install uninstall clean
+.PHONY: FORCE all help setup man install uninstall deb clean
 
 include setup.mk
 # All that follows is read when set-up has ended.
@@ -64,7 +65,7 @@ ALL_CXXFLAGS = -std=c++17 -D_GNU_SOURCE $(WARN_BOTH) -ffp-contract=off $(CFLAGS_
 ALL_LDFLAGS = -Wl,--as-needed $(CFLAGS_$(config)) $(CFLAGS) $(LDFLAGS)
 ALL_LDLIBS = $(PKG_LIBS) -lstdc++ -lpthread -lm $(LDLIBS)
 
-all: $(BIN) ## build the programs (the default)
+all: $(BIN) $(FARM) ## build the programs (the default)
 	@:
 
 include bakeslab/flat.mk
@@ -121,13 +122,13 @@ man: $(MAN_PAGES) ## write the man pages
 
 # ---- Installing.
 DATA_FILES := $(POV_FILES)
-LIB_FILES := $(READS)
+LIB_FILES := $(READS) $(FARM_LIB)
 SHARED_FILES := bakeslab/canned.mk bakeslab/export/canned_lights.py
 DOC_FILES := README.md LICENSE CITATION.cff $(LAMP_FILES)
 dest := $(DESTDIR)$(prefix)
 
 install: all $(LIB_FILES) $(MAN_PAGES) $(COMPLETIONS) ## install below DESTDIR and prefix
-	$(Q)for f in $(BIN); do install -D -m 755 $$f $(dest)/bin/$${f##*/} || exit 1; done
+	$(Q)for f in $(BIN) $(FARM); do install -D -m 755 $$f $(dest)/bin/$${f##*/} || exit 1; done
 	$(Q)for f in $(DATA_FILES); do \
 	  if [ -x $$f ]; then mode=755; else mode=644; fi; install -D -m $$mode $$f $(dest)/share/canned/$$f || exit 1; done
 	$(Q)for f in $(SHARED_FILES); do install -D -m 644 $$f $(dest)/share/canned/$${f##*/} || exit 1; done
@@ -137,11 +138,19 @@ install: all $(LIB_FILES) $(MAN_PAGES) $(COMPLETIONS) ## install below DESTDIR a
 	$(Q)ln -sfn ../../canned/include-pov $(dest)/share/doc/canned/include-pov # README's links
 	$(Q)for f in $(MAN_PAGES); do install -D -m 644 $$f $(dest)/share/man/man$${f##*.}/$${f##*/} || exit 1; done
 	$(Q)for f in $(COMPLETIONS); do install -D -m 644 $$f $(dest)/share/bash-completion/completions/$${f##*/} || exit 1; done
-	@echo 'installed bin/bakeslab, bin/renderslab, lib/canned, share/canned, share/man, share/bash-completion and share/doc/canned below $(dest)'
+	@echo 'installed bin/bakeslab, bin/renderslab, bin/canned-slurm, bin/canned-parallel, lib/canned, share/canned, share/man, share/bash-completion and share/doc/canned below $(dest)'
 
 uninstall: ## remove what install put there
-	$(Q)rm -f $(BIN:$(B)/%=$(dest)/%) $(COMPLETIONS:$(B)/%=$(dest)/share/bash-completion/%) $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
+	$(Q)rm -f $(patsubst $(B)/%,$(dest)/%,$(BIN) $(FARM)) $(COMPLETIONS:$(B)/%=$(dest)/share/bash-completion/%) $(foreach f,$(notdir $(MAN_PAGES)),$(dest)/share/man/man$(patsubst .%,%,$(suffix $(f)))/$(f))
 	$(Q)rm -rf $(dest)/share/canned $(dest)/share/doc/canned $(dest)/lib/canned
+
+DEB = $(B)/canned_$(VERSION)_$(shell dpkg --print-architecture).deb
+deb: all ## make a Debian package: all that a machine needs to bake
+	@rm -rf $(B)/deb
+	+@$(MAKE) --no-print-directory SETUP=no install DESTDIR=$(abspath $(B)/deb) prefix=/usr >/dev/null
+	@sh deb.sh $(B)/deb $(VERSION) $(DATE) $(DEB) $(PACKAGES_run)
+	@rm -rf $(B)/deb
+	@echo 'made $(DEB)'
 
 clean: ## remove everything that was built
 	$(Q)rm -rf build

@@ -34,6 +34,22 @@ $(BAKE_BIN): $(B)/bakeslab/main.o $(B)/libbake.a $(B)/libslab.a
 BAKE_PAGES := $(B)/man/bakeslab.1 $(patsubst bakeslab/cmd/cmd_%.c,$(B)/man/bakeslab-%.1,$(wildcard bakeslab/cmd/cmd_*.c))
 MAN_PAGES := $(BAKE_PAGES) $(B)/man/light-slab.5
 
+# Bakes on many machines: scripts that the programs' folder holds too, and what both of them read.
+FARM_LIB := $(B)/lib/canned/farm.sh
+
+$(FARM): $(B)/bin/%: bakeslab/farm/%.sh $(FARM_LIB)
+	@mkdir -p $(@D)
+	$(Q)install -m 755 $< $@
+
+$(FARM_LIB): bakeslab/farm/farm.sh bakeslab/base/version.h
+	@mkdir -p $(@D)
+	$(Q)sed 's/@VERSION@/$(VERSION)/' $< >$@
+
+FARM_PAGES := $(FARM:$(B)/bin/%=$(B)/man/%.1)
+MAN_PAGES += $(FARM_PAGES)
+$(FARM_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(B)/bin/%
+	$(man_page)
+
 # For bash: the commands of both programs, their options and what these take, from --help too.
 COMPLETIONS := $(BIN:$(B)/bin/%=$(B)/completions/%)
 
@@ -48,7 +64,7 @@ DATE = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || 
 define man_page
 	@mkdir -p $(@D)
 	$(call say,MAN,$@)
-	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/cli/man.sh $(filter $(BIN),$^) $* $(VERSION) >$@
+	$(Q)SOURCE_DATE_EPOCH=$(DATE) sh bakeslab/cli/man.sh $(filter $(BIN) $(FARM),$^) $* $(VERSION) >$@
 endef
 
 $(BAKE_PAGES): $(B)/man/%.1: bakeslab/cli/man.sh $(BAKE_BIN)

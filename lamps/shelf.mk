@@ -14,9 +14,11 @@ BAKED := $(basename $(notdir $(filter %.pov,$(LAMPS))))
 .DELETE_ON_ERROR:
 all: $(NAMES:%=%.inc) $(BAKED:%=%.png) $(NAMES:%=%.far.png)
 
-# As many bakes as make runs jobs, of one process each.
-BAKESLAB = @$(STEP) try $* $(BAKE)
-CANNED_BAKE_FLAGS = -j 1 $(file <$*.flags)
+# As many bakes as make runs jobs; here, of one process each.
+BAKESLAB = $(BAKE)
+CANNED_BAKE_FLAGS = $(if $(filter local,$(CANNED_LAUNCH)),-j 1) $(file <$*.flags)
+CANNED_LAUNCHER = $(dir $(BAKE))canned-$(CANNED_LAUNCH)
+canned_run = @$(STEP) try $* $(1)
 include $(HERE)../bakeslab/canned.mk
 vpath %.pov $(sort $(dir $(LAMPS)))
 vpath %.ies $(sort $(dir $(LAMPS)))

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # shelf.sh - the steps of `make lamps` that are more than one command, all in the shelf's folder.
 #   shelf.sh flags SCRIPT [FLAGS]       how to bake a lamp: FLAGS, else as its header says
-#   shelf.sh try NAME PROGRAM COMMAND.. runs a command; what it says stays in NAME.COMMAND.log,
-#                                       and in NAME.error if it fails
+#   shelf.sh try NAME STEP COMMAND...   runs a command; what it says stays in NAME.STEP.log, and in
+#                                       NAME.error if it fails
 #   shelf.sh preview NAME SCRIPT FOLDER NAME.png: the lamp by itself; FOLDER has canned.inc
 #   shelf.sh rooms NAME BAKE RENDER     NAME.near.png, NAME.far.png: what it lights
 #   shelf.sh page LAMP...               index.html of these lamps, scripts and files that are
@@ -29,8 +29,8 @@ flags() {
 }
 
 try() {
-  local name=$1 log=$1.$3.log status=0
-  shift
+  local name=$1 log=$1.$2.log status=0
+  shift 2
   "$@" 2>"$log" || status=1
   cat "$log" >&2
   [ "$status" -eq 0 ] || cp "$log" "$name.error"
@@ -57,7 +57,7 @@ rooms() {
     jq -L "$here" "include \"shelf_room\"; room(\"$which\")" "$name.json" >"$name.$which.json"
     jq -r .obj "$name.$which.json" >"$name.$which.obj"
     mapfile -t view < <(jq -r '.view[]' "$name.$which.json")
-    try "$name" "$render" image "$name.$which.obj" --light "$name.tif" "${view[@]}" --size 480x320 --samples 2 \
+    try "$name" image "$render" image "$name.$which.obj" --light "$name.tif" "${view[@]}" --size 480x320 --samples 2 \
       --tolerance 0.03 --threads 1 -q --preview "$name.$which.new.png" -o - >/dev/null
     rm "$name.$which.obj"
   done

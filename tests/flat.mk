@@ -9,7 +9,8 @@ T := %
 
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TEST_HELPERS := $(filter-out $(TEST_SOURCES),$(wildcard tests/*.c tests/*/*.c))
-TEST_BATS := $(sort $(wildcard tests/*/*.bats tests/*/*/*.bats))
+FARM_BATS := $(sort $(wildcard tests/farm/*.bats))
+TEST_BATS := $(filter-out $(FARM_BATS),$(sort $(wildcard tests/*/*.bats tests/*/*/*.bats)))
 TEST_NAMES := $(TEST_SOURCES:tests/%.c=%) $(TEST_BATS:tests/%.bats=%)
 ORACLE := $(B)/tests/oracle.a
 ORACLE_LIBS := -lgmp
@@ -44,6 +45,16 @@ $(TEST_LOGS): | $(B)/tests/lib
 test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
 	@sh tests/summary.sh $(TEST_LOGS)
+
+# One after the other, since each uses all processors.
+FARM_LOGS := $(FARM_BATS:%.bats=$(B)/%.log)
+
+.PHONY: farm-test
+farm-test: $(BIN) $(FARM) $(B)/tests/faults/fake_povray ## bake by Slurm on four nodes, and by GNU parallel over ssh, all on this machine
+	@mkdir -p $(B)/tests/farm
+	@for t in $(FARM_BATS:.bats=); do $(TEST_ENV) sh tests/run.sh $(B)/$$t.log bats --tap $$t.bats; done
+	@grep -h ' times the rays of one process ' $(FARM_LOGS) | sed 's/^# //'
+	@sh tests/summary.sh $(FARM_LOGS)
 
 # BARE: goals, and options of make for each of them: BARE="-j1 demo".
 BARE ?= demo test

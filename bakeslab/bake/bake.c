@@ -168,7 +168,7 @@ static enum result prepare(struct bake_work *work, struct bake_state *state,
   if (result == RESULT_OK) result = bake_warn_of_lamp(work, &state->lamp, &report->warnings, error);
   if (result == RESULT_OK && options->depend)
     result = lamp_depend(&state->lamp.reads, state->source.path, options->output, options->depend,
-                         true, error);
+                         !options->dry_run, error);
   if (result == RESULT_OK && probe_window_pays(work))
     result = probe_window(work, state->lamp.slabs, &state->origin.window, report, error);
   if (result == RESULT_OK && options->tolerance > 0)

@@ -11,8 +11,9 @@
  * fitted to the light, narrower or wider. */
 enum bake_window { BAKE_WINDOW_DECLARED, BAKE_WINDOW_NARROWED, BAKE_WINDOW_AUTO };
 
-/* Which rounds a shard bakes: all; the first ones, by which the last is planned; that. */
-enum bake_wave { BAKE_WAVE_ALL, BAKE_WAVE_PILOT, BAKE_WAVE_REST };
+/* Which rounds a shard bakes: all; the first ones, by which the last is planned; that; or the first
+ * that is not whole, if it is one by which others are planned, and else the last. */
+enum bake_wave { BAKE_WAVE_ALL, BAKE_WAVE_PILOT, BAKE_WAVE_REST, BAKE_WAVE_NEXT };
 
 struct bake_options {
   const char *lamp, *output;

@@ -96,10 +96,11 @@ static const struct argp_option options[] = {
      "bake only part K of N (from 1) into SLAB.partial; a run without --shard bakes what is "
      "missing and writes the slab. For machines that share no folder: those that do need no shards",
      4},
-    {"round", KEY(wave), "all|pilot|rest", 0,
+    {"round", KEY(wave), "all|pilot|rest|next", 0,
      "which rounds a shard bakes: the pilot, by which the rest is planned; the rest, once all "
-     "shards' pilots are in SLAB.partial (bakeslab gather); or all (the default), for which each "
-     "shard bakes the whole pilot itself",
+     "shards' pilots are in SLAB.partial (bakeslab gather); next: what SLAB.partial calls for, so "
+     "that any number of waves are alike; or all (the default), for which each shard bakes the "
+     "whole pilot itself",
      4},
     {"povray", KEY(povray), "PROGRAM", 0, "the POV-Ray to run (default povray)", 4},
     {"sandbox", KEY(sandbox), 0, 0,
@@ -122,7 +123,7 @@ static const struct argp_option options[] = {
      4},
     {"depend", KEY(depend), "FILE", 0,
      "write a rule for make: SLAB depends on every file that the script reads (as gcc's -MD -MF "
-     "FILE -MP)",
+     "FILE -MP); with --dry-run, too",
      4},
     {0, 'L', "FOLDER", 0, "where the script finds files to include; may be repeated", 4},
     {0}};
@@ -285,7 +286,10 @@ static void report_shard(const struct bake_options *bake, const struct bake_repo
         stderr,
         "%s: shard %d/%d of pilot %d is done; bring the folders of all shards together (bakeslab "
         "gather), and go on with --round %s\n",
-        bake->output, k, n, report->pilot, report->more_pilots ? "pilot again" : "rest");
+        bake->output, k, n, report->pilot,
+        bake->wave == BAKE_WAVE_NEXT ? "next"
+        : report->more_pilots        ? "pilot again"
+                                     : "rest");
   else if (bake->wave == BAKE_WAVE_PILOT)
     fprintf(stderr, "%s: the pilot is whole; go on with --shard %d/%d --round rest\n", bake->output,
             k, n);

@@ -18,7 +18,9 @@ setup() {
     echo '// read' >"$name"
     printf '#include "%s"\n' "$name" >>flat.pov
   done
+  small flat.pov -q -o slab.tif --depend early.d --dry-run
   small flat.pov -q -o slab.tif --depend slab.d
+  cmp early.d slab.d
   # All that it names is there and older than the slab; a slab made before it is not.
   make -q slab.tif
   touch -d '1 hour ago' flat.pov "${names[@]}"

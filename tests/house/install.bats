@@ -21,6 +21,10 @@ setup_file() {
   [ -x "$PREFIX/lib/canned/bakeslab-image" ]
   [ -s "$PREFIX/share/man/man5/light-slab.5" ]
   cmp "$ROOT/include-pov/room.obj" "$PREFIX/share/canned/include-pov/room.obj"
+  for program in canned-slurm canned-parallel; do
+    "$PREFIX/bin/$program" --help | grep -q '^Examples:$'
+    [ -s "$PREFIX/share/man/man1/$program.1" ]
+  done
   for program in bakeslab renderslab; do
     [ -x "$PREFIX/bin/$program" ]
     [ -s "$PREFIX/share/man/man1/$program.1" ]

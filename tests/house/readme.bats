@@ -13,7 +13,7 @@ pages() { find README.md bakeslab include-pov lamps render tests -name '*.md'; }
 @test "every make target and command that is named exists" {
   cd "$ROOT"
   help=$(house_make help)
-  for target in $(pages | xargs grep -ohE '`make [a-z]+|^make [a-z]+' | awk '{ print $2 }' | sort -u); do
+  for target in $(pages | xargs grep -ohE '`make [a-z][a-z-]*|^make [a-z][a-z-]*' | awk '{ print $2 }' | sort -u); do
     grep -q "^make $target " <<<"$help" || { echo "no target $target"; false; }
   done
   for program in "$BAKESLAB" "$RENDERSLAB"; do
