@@ -47,14 +47,14 @@ test: $(TEST_LOGS) ## run the tests
 	@sh tests/summary.sh $(TEST_LOGS)
 
 # One after the other, since each uses all processors.
-FARM_LOGS := $(FARM_BATS:%.bats=$(B)/%.log)
+FARM_LOG := $(B)/tests/farm.log
 
 .PHONY: farm-test
 farm-test: $(BIN) $(FARM) $(B)/tests/faults/fake_povray ## bake by Slurm on four nodes, and by GNU parallel over ssh, all on this machine
-	@mkdir -p $(B)/tests/farm
-	@for t in $(FARM_BATS:.bats=); do $(TEST_ENV) sh tests/run.sh $(B)/$$t.log bats --tap $$t.bats; done
-	@grep -h ' times the rays of one process ' $(FARM_LOGS) | sed 's/^# //'
-	@sh tests/summary.sh $(FARM_LOGS)
+	@mkdir -p $(B)/tests
+	@$(TEST_ENV) TEST_TIMEOUT=3600 sh tests/run.sh $(FARM_LOG) bats --tap $(FARM_BATS)
+	@sed -n 's/^# \(.* times the rays of one process .*\)/\1/p' $(FARM_LOG)
+	@sh tests/summary.sh $(FARM_LOG)
 
 # BARE: goals, and options of make for each of them: BARE="-j1 demo".
 BARE ?= demo test

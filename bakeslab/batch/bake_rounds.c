@@ -93,7 +93,8 @@ static size_t count_missing(const struct bake_work *work, const struct bake_roun
   return missing;
 }
 
-/* A pilot, in waves of shards that share no folder. */
+/* A pilot, in waves of shards that share no folder. Who goes on with what is next ends after its
+ * part, even where that was all, since others wait for it. */
 static enum result run_wave(const struct bake_work *work, struct bake_rounds *rounds,
                             const struct bake_round *round, struct bake_report *report,
                             struct error *error) {
@@ -105,7 +106,8 @@ static enum result run_wave(const struct bake_work *work, struct bake_rounds *ro
                        "all shards together (bakeslab gather), and bake with --round pilot first",
                        work->store->directory, missing, round->batch_count, rounds->number);
   if (missing > 0) result = bake_run(work, round, true, NULL, report, error);
-  rounds->waits = result != RESULT_OK || count_missing(work, round) > 0;
+  rounds->waits = result != RESULT_OK || count_missing(work, round) > 0 ||
+                  (missing > 0 && work->effort.wave == BAKE_WAVE_NEXT);
   if (rounds->waits) return result;
   return bake_run(work, round, false, rounds->sum, report, error);
 }

@@ -52,11 +52,15 @@ LAMP
 cheap() { echo "$BAKESLAB bake cheap.pov --povray $PWD/counted --uv 16 --st 32 --rays ${RAYS:-160} --uniform"; }
 tin() { echo "$BAKESLAB bake tin.pov --povray $PWD/counted --uv 16 --st 32 --rays ${RAYS:-96}"; }
 
-# alone LAMP: LAMP.tif and what it takes, by one process with two POV-Rays.
+# alone LAMP: LAMP.tif and what it takes, by one process with two POV-Rays; once for all files.
 alone() {
-  rm -f rendered
-  $($1) -o "$1.tif" --jobs 2 -q
-  rendered >"$1.rays"
+  local all=$BATS_RUN_TMPDIR
+  if [ ! -e "$all/$1.rays" ]; then
+    rm -f rendered
+    $($1) -o "$all/$1.tif" --jobs 2 -q
+    rendered >"$all/$1.rays"
+  fi
+  cp "$all/$1.tif" "$all/$1.rays" .
 }
 
 same() { "$BAKESLAB" diff --tolerance 0 "$1" "$2"; }
