@@ -81,16 +81,17 @@ static enum result estimate_time(const struct bake_work *work, const double cpu[
   round[1] = work->effort.rays - round[0];
   estimate->memory = program_bytes + SUM_BYTES * estimate->samples;
   for (int n = 0; n < 2 && round[n] > 0; ++n) {
-    double batches, frames, round_rays = estimate->samples * round[n];
-    bake_plan_count(work->slabs, work->lamp->slab_count, round[n], work->look.form, &batches,
-                    &frames);
+    struct bake_plan_size size;
+    bake_plan_count(work->slabs, work->lamp->slab_count, round[n], work->look.form,
+                    bake_rounds_are_dear(work), &size);
+    double batches = size.batches, round_rays = estimate->samples * round[n];
     double jobs = fmin(options->jobs, batches);
     double time = (batches * first + round_rays * per_ray) / fmin(jobs, fmax(1, cores)) +
-                  (batches * idle_seconds + frames * frame_seconds) / jobs;
+                  (batches * idle_seconds + size.frames * frame_seconds) / jobs;
     estimate->seconds += time / options->shards;
     estimate->memory = fmax(estimate->memory, program_bytes + SUM_BYTES * estimate->samples +
                                                   jobs * (fmin(2, batches / jobs) * povray_bytes +
-                                                          povray_ray_bytes * round_rays / batches));
+                                                          povray_ray_bytes * size.largest));
   }
   double balance_rays;
   enum result result = bake_energy_cost(work, &balances, &balance_rays, error);

@@ -41,9 +41,9 @@ static char *print_settings(const struct bake_work *work) {
   if (!out) return NULL;
   for (int n = 0; n < work->lamp->slab_count; ++n) print_page(out, &work->slabs[n]);
   for (int n = 0; n < EFFECTS; ++n) fprintf(out, "%d ", work->look.effects->setting[n]);
-  fprintf(out, "%d %d %d %d %d %d %d %d ", effort->rays, effort->rays_max, effort->adaptive,
-          work->look.form, work->look.defect_rows, work->look.offsets, work->look.dark,
-          options->precision);
+  fprintf(out, "%d %d %d %d %d %d %d %d %d ", BAKE_PLAN_CUT_VERSION, effort->rays, effort->rays_max,
+          effort->adaptive, work->look.form, work->look.defect_rows, work->look.offsets,
+          work->look.dark, options->precision);
   print_numbers(
       out, (double[]){work->look.gain, options->noise, options->tolerance, options->for_distance},
       4);

@@ -6,25 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A POV-Ray process costs 0.1 s whatever it renders: batches take a few seconds, those of a
- * round cost about the same, and their number is a multiple of BATCH_EVEN, so that a few processes
- * end together. What is less, but more than HALVED, is cut in two, unless a process is dear.
- * Costs are in rays; a camera costs some too, since POV-Ray finds a mesh camera's face by a linear
- * search through the meshes. */
-enum {
-  BATCH_COST = 1 << 21,
-  HALVED = 1 << 16,
-  CAMERA_COST = 256,
-  BATCH_EVEN = 4,
-  BATCH_FRAMES = 512
-};
-
-/* The side of the largest mesh of directions, whose parsing grows faster than its faces do. */
-enum { MESH = 64 };
-
 /* The longest side of a box. */
 static int longest_side(enum bake_form form) {
-  return form == BAKE_MESH ? MESH : INT_MAX;
+  return form == BAKE_MESH ? BAKE_MESH_SIDE : INT_MAX;
 }
 
 /* ---- Tiles ---- */
@@ -194,57 +178,6 @@ static bool add_passes(struct bake_round *round, size_t box, int from, int to, b
   return true;
 }
 
-static size_t batch_cost(const struct bake_batch *batch) {
-  return batch->rays + CAMERA_COST * batch->count;
-}
-
-/* The batches that so much is cut into. */
-static size_t cut(size_t cost, bool dear) {
-  size_t batches = (cost + BATCH_COST - 1) / BATCH_COST;
-  if (batches > 1) return (batches + BATCH_EVEN - 1) / BATCH_EVEN * BATCH_EVEN;
-  return cost > HALVED && !dear ? 2 : batches;
-}
-
-/* The cost at which a batch is full. */
-static size_t full_cost(const struct bake_round *round, bool dear) {
-  struct bake_batch all = {.count = round->unit_count};
-  for (size_t unit = 0; unit < round->unit_count; ++unit)
-    all.rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
-  size_t batches = cut(batch_cost(&all), dear);
-  return batches ? (batch_cost(&all) + batches - 1) / batches : 1;
-}
-
-/* Whether a unit may join the batch. Frames of an animation are all of one shape. */
-static bool fits(const struct bake_round *round, const struct bake_batch *batch, size_t unit,
-                 enum bake_form form, size_t full) {
-  const struct bake_box *box = &round->boxes[round->units[unit].box];
-  const struct bake_box *first = &round->boxes[round->units[batch->first].box];
-  bool second_of_pair =
-      round->units[unit].pass % 2 == 1 && round->units[unit - 1].box == round->units[unit].box;
-  if (second_of_pair) return true;
-  bool same_shape = !memcmp(box->size, first->size, sizeof box->size);
-  if (box->page / round->apertures != first->page / round->apertures) return false;
-  if (form != BAKE_MESH && (batch->count >= BATCH_FRAMES || !same_shape)) return false;
-  return batch_cost(batch) < full;
-}
-
-static enum result cut_batches(const struct bake_tiles *tiles, struct bake_round *round,
-                               enum bake_form form, struct error *error) {
-  size_t full = full_cost(round, tiles->dear);
-  round->batches = malloc((round->unit_count + 1) * sizeof *round->batches); /* at most */
-  if (!round->batches) return result_no_memory(error);
-  struct bake_batch *last = round->batches;
-  for (size_t unit = 0; unit < round->unit_count; ++unit) {
-    if (unit == 0 || !fits(round, last, unit, form, full)) {
-      last = &round->batches[round->batch_count++];
-      *last = (struct bake_batch){.first = unit};
-    }
-    ++last->count;
-    last->rays += (size_t)bake_box_rays(&round->boxes[round->units[unit].box]);
-  }
-  return RESULT_OK;
-}
-
 /* The box among those from `first` on that `box` continues downwards without growing
  * longer than `most`; or the number of boxes. */
 static size_t find_above(const struct bake_round *round, size_t first, const struct bake_box *box,
@@ -323,26 +256,7 @@ enum result bake_plan_whole(const struct bake_tiles *tiles, int from, int to, en
   if (!add_boxes(tiles, NULL, 0, longest_side(form), round) ||
       !add_passes(round, 0, from, to, true))
     return result_no_memory(error);
-  return cut_batches(tiles, round, form, error);
-}
-
-static double parts(int samples) {
-  return ceil((double)samples / MESH);
-}
-
-void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_form form,
-                     double *batches, double *frames) {
-  double cameras = 0, rays = 0;
-  for (int page = 0; page < pages; ++page) {
-    const int *n = slabs[page].samples;
-    double positions = (double)n[SLAB_U] * n[SLAB_V], directions = (double)n[SLAB_S] * n[SLAB_T];
-    rays += passes * positions * directions;
-    cameras += passes * (form == BAKE_TRANSPOSED ? directions : positions) *
-               (form == BAKE_MESH ? parts(n[SLAB_S]) * parts(n[SLAB_T]) : 1);
-  }
-  *frames = form == BAKE_MESH ? 0 : cameras;
-  *batches =
-      fmax((double)cut((size_t)(rays + CAMERA_COST * cameras), true), ceil(*frames / BATCH_FRAMES));
+  return bake_plan_cut(tiles, round, form, error);
 }
 
 /* The least that any tile has of those that lack passes, and the most that any is to get. */
@@ -371,5 +285,5 @@ enum result bake_plan_rest(const struct bake_tiles *tiles, const int *done, cons
            add_passes(round, box, from, to, form == BAKE_MESH);
   }
   free(step);
-  return good ? cut_batches(tiles, round, form, error) : result_no_memory(error);
+  return good ? bake_plan_cut(tiles, round, form, error) : result_no_memory(error);
 }

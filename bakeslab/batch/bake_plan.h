@@ -8,6 +8,9 @@
 
 #include "batch/bake_rays.h"
 
+/* The side of the largest mesh of directions, whose parsing grows faster than its faces do. */
+enum { BAKE_MESH_SIDE = 64 };
+
 enum bake_form { BAKE_MESH, BAKE_PERSPECTIVE, BAKE_TRANSPOSED };
 
 /* A grid of tiles over each page: a tile is one sample wide along the axes that a
@@ -60,14 +63,23 @@ struct bake_round {
 };
 void bake_round_free(struct bake_round *round);
 
+/* Cuts a round's units into batches (bake_cut.c). Another version cuts otherwise: what lies of it
+ * in a folder is of another plan. */
+enum { BAKE_PLAN_CUT_VERSION = 2 };
+enum result bake_plan_cut(const struct bake_tiles *tiles, struct bake_round *round,
+                          enum bake_form form, struct error *error);
+
 /* Passes from `from` to before `to` everywhere, one box a camera. */
 enum result bake_plan_whole(const struct bake_tiles *tiles, int from, int to, enum bake_form form,
                             struct bake_round *round, struct error *error);
 
-/* About how many batches as many passes everywhere have; and how many frames
- * of animations in all. */
+/* About how many batches as many passes everywhere have, the rays of the largest, and how many
+ * frames of animations there are in all. */
+struct bake_plan_size {
+  double batches, largest, frames;
+};
 void bake_plan_count(const struct slab *slabs, int pages, int passes, enum bake_form form,
-                     double *batches, double *frames);
+                     bool dear, struct bake_plan_size *size);
 
 /* What bounds the rays of a bake. */
 struct bake_limits {

@@ -41,15 +41,14 @@ struct bake_effort bake_effort_of(const struct bake_options *options) {
                               .wave = options->wave};
 }
 
-/* Whether each POV-Ray process costs as much as many rays do. */
-static bool is_dear(const struct bake_work *work) {
+bool bake_rounds_are_dear(const struct bake_work *work) {
   const int *setting = work->look.effects->setting;
   return setting[INTERREFLECTION] || setting[CAUSTICS];
 }
 
 /* Whether a bake begins with a search. */
 static bool searches(const struct bake_work *work) {
-  return work->effort.adaptive && !is_dear(work);
+  return work->effort.adaptive && !bake_rounds_are_dear(work);
 }
 
 int bake_rounds_first(const struct bake_work *work) {
@@ -224,7 +223,7 @@ enum result bake_rounds_run(const struct bake_work *work, const char *label,
   enum result result =
       bake_tiles_init(&rounds->tiles, work->slabs, work->lamp->slab_count,
                       work->look.form == BAKE_TRANSPOSED, searches(work) ? BEAM_TILE : TILE, error);
-  rounds->tiles.dear = is_dear(work);
+  rounds->tiles.dear = bake_rounds_are_dear(work);
   if (result == RESULT_OK) result = bake_sum_new(&rounds->tiles, most, &rounds->sum, error);
   if (result == RESULT_OK)
     result = bake_plan_whole(&rounds->tiles, from, from + bake_rounds_first(work), work->look.form,

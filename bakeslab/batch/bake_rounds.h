@@ -18,6 +18,9 @@ struct bake_rounds {
 /* What the user asks for. */
 struct bake_effort bake_effort_of(const struct bake_options *options);
 
+/* Whether each POV-Ray process costs as much as many rays do. */
+bool bake_rounds_are_dear(const struct bake_work *work);
+
 /* Passes of the first round; all of them, where there is no other. */
 int bake_rounds_first(const struct bake_work *work);
 

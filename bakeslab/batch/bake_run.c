@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "batch/bake_claim.h"
 #include "batch/bake_counts.h"
+#include "batch/bake_order.h"
 
 /* A POV-Ray process is idle for some 0.05 s before its first pixel and after its last one: the next
  * may start when one has no more than these seconds left to render. */
@@ -349,27 +350,14 @@ static enum result loop(struct run *run, struct bake_report *report, struct erro
   }
 }
 
-/* Where a process begins: who comes to others, at a place of its own, so that they do not all try
- * the same batches. */
-static size_t first_batch(const struct run *run) {
-  const char *id = run->work->store->worker->name.id;
-  size_t hash = 0;
-  if (!bake_store_has_others(run->work->store)) return 0;
-  for (; *id; ++id) hash = 31 * hash + (unsigned char)*id;
-  return hash % (run->round->batch_count + 1);
-}
-
-/* This shard's batches first, then the others'. Returns the rays of the largest. */
-static size_t put_in_order(struct run *run, bool part) {
-  size_t largest = 1, shards = (size_t)run->work->effort.shards, count = run->round->batch_count;
-  size_t first = shards > 1 ? 0 : first_batch(run);
-  for (size_t turn = 0; turn < (part ? 1 : shards); ++turn)
-    for (size_t k = ((size_t)run->work->effort.shard + turn) % shards; k < count; k += shards) {
-      size_t n = (k + first) % count;
-      run->order[run->count++] = n;
-      run->rays_all += run->round->batches[n].rays;
-      if (run->round->batches[n].rays > largest) largest = run->round->batches[n].rays;
-    }
+/* What is in the order to be rendered. Returns the rays of the largest batch. */
+static size_t count_rays(struct run *run) {
+  size_t largest = 1;
+  for (size_t k = 0; k < run->count; ++k) {
+    size_t rays = run->round->batches[run->order[k]].rays;
+    run->rays_all += rays;
+    if (rays > largest) largest = rays;
+  }
   return largest;
 }
 
@@ -381,7 +369,10 @@ enum result bake_run(const struct bake_work *work, const struct bake_round *roun
   run.processes = calloc((size_t)run.slots, sizeof *run.processes);
   run.order = malloc((round->batch_count + 1) * sizeof *run.order);
   run.ready = calloc(round->batch_count + 1, sizeof *run.ready);
-  size_t largest = run.order ? put_in_order(&run, part) : 1;
+  if (run.order)
+    run.count =
+        bake_order(round, work->store, work->effort.shard, work->effort.shards, part, run.order);
+  size_t largest = count_rays(&run);
   run.rgb = malloc(largest * 3 * sizeof *run.rgb);
   report->batches += (int)run.count;
   lamp_source_library(work->source, &run.library);

@@ -12,15 +12,50 @@ struct cell {
   int rays, pairs;
 };
 
+/* A page's cells, and what they share along its axes: looked up for each ray. */
+struct page {
+  struct cell *cells;          /* in the raster's order; owned */
+  double area;                 /* product of the axes' spacings */
+  double *position[SLAB_AXES]; /* of each index; owned */
+  int *tile[SLAB_AXES];        /* what each index adds to the tile's number; owned */
+};
+
 struct bake_sum {
   const struct bake_tiles *tiles; /* not owned */
-  struct cell **pages;            /* one array a page, in the raster's order */
+  struct page *pages;             /* owned */
   int most_pairs;
   double *flux;     /* [tile][pair]: luminous flux of the tile by that pair */
   int *tile_pairs;  /* pairs that each tile got */
   double brightest; /* luminance of a ray */
   bool searched;    /* each sample had a ray that looked for light */
 };
+
+static bool fill_page(const struct bake_tiles *tiles, int number, struct page *page) {
+  const struct slab *slab = &tiles->slabs[number];
+  page->cells = calloc(slab_sample_count(slab), sizeof *page->cells);
+  page->area = 1;
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    size_t count = (size_t)slab->samples[axis];
+    page->position[axis] = malloc(count * sizeof *page->position[axis]);
+    page->tile[axis] = malloc(count * sizeof *page->tile[axis]);
+    if (!page->position[axis] || !page->tile[axis]) return false;
+    page->area *= slab_spacing(slab, axis);
+    for (int at[SLAB_AXES] = {0}, n = 0; n < slab->samples[axis]; ++n) {
+      at[axis] = n;
+      page->position[axis][n] = slab_position(slab, axis, n);
+      page->tile[axis][n] = bake_tile_at(tiles, number, at) - tiles->first_tile[number];
+    }
+  }
+  return page->cells != NULL;
+}
+
+static void free_page(struct page *page) {
+  free(page->cells);
+  for (int axis = 0; axis < SLAB_AXES; ++axis) {
+    free(page->position[axis]);
+    free(page->tile[axis]);
+  }
+}
 
 enum result bake_sum_new(const struct bake_tiles *tiles, int most_passes, struct bake_sum **out,
                          struct error *error) {
@@ -33,10 +68,8 @@ enum result bake_sum_new(const struct bake_tiles *tiles, int most_passes, struct
   sum->flux = calloc((size_t)bake_tile_count(tiles) * (size_t)sum->most_pairs, sizeof *sum->flux);
   sum->tile_pairs = calloc((size_t)bake_tile_count(tiles), sizeof *sum->tile_pairs);
   bool good = sum->pages && sum->flux && sum->tile_pairs;
-  for (int page = 0; good && page < tiles->pages; ++page) {
-    sum->pages[page] = calloc(slab_sample_count(&tiles->slabs[page]), sizeof **sum->pages);
-    good = sum->pages[page] != NULL;
-  }
+  for (int page = 0; good && page < tiles->pages; ++page)
+    good = fill_page(tiles, page, &sum->pages[page]);
   if (good) return RESULT_OK;
   return result_fail(error, RESULT_MEMORY,
                      "not enough memory for the samples; choose fewer with --uv or --st");
@@ -44,7 +77,7 @@ enum result bake_sum_new(const struct bake_tiles *tiles, int most_passes, struct
 
 void bake_sum_free(struct bake_sum *sum) {
   if (!sum) return;
-  for (int page = 0; sum->pages && page < sum->tiles->pages; ++page) free(sum->pages[page]);
+  for (int page = 0; sum->pages && page < sum->tiles->pages; ++page) free_page(&sum->pages[page]);
   free(sum->pages);
   free(sum->flux);
   free(sum->tile_pairs);
@@ -52,22 +85,26 @@ void bake_sum_free(struct bake_sum *sum) {
 }
 
 /* cos(theta) d(omega) dA of a sample's cell, up to the kernel's change within it. */
-static double cell_weight(const struct slab *slab, const int at[SLAB_AXES]) {
-  double kappa = slab_kappa(slab), position[SLAB_AXES], weight = 1;
-  for (int axis = 0; axis < SLAB_AXES; ++axis) {
-    position[axis] = slab_position(slab, axis, at[axis]);
-    weight *= slab_spacing(slab, axis);
-  }
-  double x = position[SLAB_S] - kappa * position[SLAB_U];
-  double y = position[SLAB_T] - kappa * position[SLAB_V];
+static double cell_weight(const struct bake_sum *sum, int number, const int at[SLAB_AXES]) {
+  const struct page *page = &sum->pages[number];
+  double kappa = slab_kappa(&sum->tiles->slabs[number]);
+  double x = page->position[SLAB_S][at[SLAB_S]] - kappa * page->position[SLAB_U][at[SLAB_U]];
+  double y = page->position[SLAB_T][at[SLAB_T]] - kappa * page->position[SLAB_V][at[SLAB_V]];
   double r = 1 + x * x + y * y;
-  return weight / (r * r);
+  return page->area / (r * r);
+}
+
+/* The tile that holds a sample. */
+static int tile_of(const struct bake_sum *sum, int number, const int at[SLAB_AXES]) {
+  int tile = sum->tiles->first_tile[number];
+  for (int axis = 0; axis < SLAB_AXES; ++axis) tile += sum->pages[number].tile[axis][at[axis]];
+  return tile;
 }
 
 static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int pass,
                     const float *rgb) {
   const struct slab *slab = &sum->tiles->slabs[page];
-  struct cell *cell = &sum->pages[page][slab_pixel(slab, at)];
+  struct cell *cell = &sum->pages[page].cells[slab_pixel(slab, at)];
   double y = slab_luminance(rgb), before = 0; /* of the pair, without this ray */
   sum->brightest = fmax(sum->brightest, y);
   if (pass == BAKE_SEARCH) {
@@ -86,9 +123,9 @@ static void add_ray(struct bake_sum *sum, int page, const int at[SLAB_AXES], int
   cell->y += y - before;
   cell->yy += y * y - before * before;
   ++cell->rays;
-  int tile = bake_tile_at(sum->tiles, page, at), pair = pass / 2;
+  int tile = tile_of(sum, page, at), pair = pass / 2;
   sum->flux[(size_t)tile * (size_t)sum->most_pairs + (size_t)pair] +=
-      (y - before) * cell_weight(slab, at);
+      (y - before) * cell_weight(sum, page, at);
   if (sum->tile_pairs[tile] <= pair) sum->tile_pairs[tile] = pair + 1;
 }
 
@@ -135,8 +172,8 @@ enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, st
     for (size_t n = 0; n < slab_sample_count(slab); ++n) {
       int at[SLAB_AXES];
       slab_locate(slab, n, at);
-      int tile = bake_tile_at(sum->tiles, page, at);
-      deviation[tile] += variance(&sum->pages[page][n]) * pow(cell_weight(slab, at), 2);
+      int tile = tile_of(sum, page, at);
+      deviation[tile] += variance(&sum->pages[page].cells[n]) * pow(cell_weight(sum, page, at), 2);
       ++count[tile];
     }
   }
@@ -146,15 +183,15 @@ enum result bake_sum_deviation(const struct bake_sum *sum, double *deviation, st
 }
 
 bool bake_sum_is_lit(const struct bake_sum *sum, int page, size_t sample) {
-  const struct cell *cell = &sum->pages[page][sample];
+  const struct cell *cell = &sum->pages[page].cells[sample];
   return cell->yy > 0 || cell->found != 0;
 }
 
 double bake_sum_light(const struct bake_sum *sum, int page, size_t sample) {
-  const struct cell *cell = &sum->pages[page][sample];
+  const struct cell *cell = &sum->pages[page].cells[sample];
   int at[SLAB_AXES];
   slab_locate(&sum->tiles->slabs[page], sample, at);
-  return fabs((double)cell->found + cell->y) * cell_weight(&sum->tiles->slabs[page], at);
+  return fabs((double)cell->found + cell->y) * cell_weight(sum, page, at);
 }
 
 /* ---- The error of the flux ---- */
@@ -231,9 +268,9 @@ static double brightest_ray(const struct bake_sum *sum, int page) {
   for (size_t n = 0; n < slab_sample_count(slab); ++n) {
     int at[SLAB_AXES];
     slab_locate(slab, n, at);
-    const struct cell *cell = &sum->pages[page][n];
+    const struct cell *cell = &sum->pages[page].cells[n];
     double more = sum->brightest - mean_luminance(cell);
-    most = fmax(most, cell_weight(slab, at) * more / fmax(1, cell->rays));
+    most = fmax(most, cell_weight(sum, page, at) * more / fmax(1, cell->rays));
   }
   return most;
 }
@@ -273,7 +310,7 @@ void bake_sum_noise(const struct bake_sum *sum, double gain, enum bake_offsets o
   *noise = (struct bake_noise){.known = true};
   for (int page = 0; page < sum->tiles->pages; ++page)
     for (size_t n = 0; n < slab_sample_count(&sum->tiles->slabs[page]); ++n) {
-      const struct cell *cell = &sum->pages[page][n];
+      const struct cell *cell = &sum->pages[page].cells[n];
       squares += variance(cell) / fmax(1, cell->pairs);
       luminance += mean_luminance(cell);
       rays += cell->rays + sum->searched;
@@ -293,7 +330,7 @@ enum result bake_sum_finish(const struct bake_sum *sum, double gain, struct slab
   for (int page = 0; page < sum->tiles->pages; ++page) {
     enum result result = slab_alloc(&pages[page], error);
     if (result != RESULT_OK) return result;
-    const struct cell *cell = sum->pages[page];
+    const struct cell *cell = sum->pages[page].cells;
     float *rgb = pages[page].rgb;
     for (size_t n = 0; n < slab_sample_count(&pages[page]); ++n, ++cell)
       for (int c = 0; c < 3; ++c) *rgb++ = (float)(cell->rgb[c] / fmax(1, cell->rays) / gain);

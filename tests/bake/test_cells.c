@@ -228,25 +228,31 @@ TEST(test_no_noise) {
 /* The plan that is told counts batches and frames as the bake cuts them. */
 TEST(test_counted) {
   static const int samples[][SLAB_AXES] = {
-      {4, 4, 10, 10}, {16, 16, 64, 64}, {30, 20, 150, 70}, {64, 48, 4, 8}};
+      {4, 4, 10, 10}, {16, 16, 64, 64}, {30, 20, 150, 70}, {64, 48, 4, 8}, {64, 64, 64, 48}};
   for (size_t k = 0; k < sizeof samples / sizeof *samples; ++k)
-    for (int form = BAKE_MESH; form <= BAKE_TRANSPOSED; ++form) {
-      struct slab slabs[2] = {{.st_distance = INFINITY}, {.st_distance = INFINITY}};
-      struct bake_tiles tiles;
-      struct bake_round round;
-      double batches, frames;
-      for (int n = 0; n < 2; ++n) memcpy(slabs[n].samples, samples[k], sizeof samples[k]);
-      bake_plan_count(slabs, 2, 6, (enum bake_form)form, &batches, &frames);
-      assert_int_equal(bake_tiles_init(&tiles, slabs, 2, form == BAKE_TRANSPOSED, 8, NULL),
-                       RESULT_OK);
-      assert_int_equal(bake_plan_whole(&tiles, 0, 6, (enum bake_form)form, &round, NULL),
-                       RESULT_OK);
-      /* The last one may be short, or a few units more. */
-      assert_true(fabs(batches - (double)round.batch_count) <= 1 + 0.1 * batches);
-      assert_true(frames == (form == BAKE_MESH ? 0 : (double)round.unit_count));
-      bake_round_free(&round);
-      bake_tiles_free(&tiles);
-    }
+    for (int form = BAKE_MESH; form <= BAKE_TRANSPOSED; ++form)
+      for (int dear = 0; dear < 2; ++dear) {
+        struct slab slabs[2] = {{.st_distance = INFINITY}, {.st_distance = INFINITY}};
+        struct bake_tiles tiles;
+        struct bake_round round;
+        struct bake_plan_size size;
+        double largest = 0;
+        for (int n = 0; n < 2; ++n) memcpy(slabs[n].samples, samples[k], sizeof samples[k]);
+        bake_plan_count(slabs, 2, 6, (enum bake_form)form, dear, &size);
+        assert_int_equal(bake_tiles_init(&tiles, slabs, 2, form == BAKE_TRANSPOSED, 8, NULL),
+                         RESULT_OK);
+        tiles.dear = dear;
+        assert_int_equal(bake_plan_whole(&tiles, 0, 6, (enum bake_form)form, &round, NULL),
+                         RESULT_OK);
+        for (size_t n = 0; n < round.batch_count; ++n)
+          largest = fmax(largest, (double)round.batches[n].rays);
+        /* Batches end with a pair of images; the last one may be short. */
+        assert_true(fabs(size.batches - (double)round.batch_count) <= 1 + 0.1 * size.batches);
+        assert_true(fabs(size.largest - largest) <= 0.1 * largest + 2 * 150 * 70);
+        assert_true(size.frames == (form == BAKE_MESH ? 0 : (double)round.unit_count));
+        bake_round_free(&round);
+        bake_tiles_free(&tiles);
+      }
 }
 
 int main(void) {
