@@ -87,9 +87,9 @@ $(BENCH_RAYS): $(B)/tests/bench/%: $(B)/tests/bench/%.o $(ORACLE)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
-BENCH_ESTIMATE := $(B)/tests/bench/estimate
+BENCH_ESTIMATE := $(B)/tests/bench/estimate $(B)/tests/bench/claims
 
-$(BENCH_ESTIMATE): $(B)/tests/bench/estimate.o $(ORACLE) $(B)/libbake.a $(B)/libslab.a
+$(BENCH_ESTIMATE): $(B)/tests/bench/%: $(B)/tests/bench/%.o $(ORACLE) $(B)/libbake.a $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
@@ -106,6 +106,17 @@ TRADEOFF_LAMPS := $(B)/tests/tradeoff/lamps
 $(TRADEOFF_LAMPS): $(B)/tests/tradeoff/lamps.o $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
+SIMULATE := $(B)/tests/simulate/simulate
+
+$(SIMULATE): $(patsubst %,$(B)/tests/simulate/%.o,simulate farm costs) $(B)/libbake.a $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
+.PHONY: simulate
+simulate: $(SIMULATE) ## simulate bakes that 1 to 1024 workers share, and plot how long they take
+	@mkdir -p build/simulate
+	@tests/simulate/run.sh $(SIMULATE) build/simulate
 
 .PHONY: tradeoff
 tradeoff: $(BIN) $(BENCH_FLOOR) $(TRADEOFF_LAMPS) ## measure what accuracy costs in time, and plot it
@@ -133,7 +144,7 @@ engines: $(BIN) ## install Radiance, Mitsuba and Blender's bpy for tests (ENGINE
 	@$(MAKE) --no-print-directory SETUP=no test T='$(if $(filter command%,$(origin T)),$(T),export/%)'
 	@sed -nE 's/^# (.*: (rays|irradiance) by (rtrace|Mitsuba|Cycles).*): /  \1  /p' $(B)/tests/export/*.log
 
-bench: $(BIN) $(B)/tests/chain/test_photometric $(B)/tests/unit/test_photometry_slab $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(BENCH_EXPORT) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr $(DEMO)/renderslab.exr ## measure, and print the tables of tests/RESULTS.md
+bench: $(BIN) $(B)/tests/faults/fake_povray $(B)/tests/chain/test_photometric $(B)/tests/unit/test_photometry_slab $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(BENCH_EXPORT) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr $(DEMO)/renderslab.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TESTS=$(abspath $(B)/tests) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done

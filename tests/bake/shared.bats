@@ -7,13 +7,13 @@ setup() {
   needs jq
   cd "$BATS_TEST_TMPDIR" || return 1
   echo '#include "canned.inc"' >fake.pov
-  export FAKE_SECONDS=0.1 FAKE_LOG=$PWD/rendered
+  export FAKE_SECONDS=0.2 FAKE_LOG=$PWD/rendered
   RANDOM=1
 }
 
 # Becomes a bake of 8 batches and more.
 a_bake() {
-  exec "$BAKESLAB" bake fake.pov --povray "$BUILD/tests/faults/fake_povray" --uv 64 --st 1 --rays 8 \
+  exec "$BAKESLAB" bake fake.pov --povray "$BUILD/tests/faults/fake_povray" --uv 48 --st 1 --rays 8 \
     --precision float --jobs 1 -q "$@"
 }
 
