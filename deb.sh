@@ -31,7 +31,7 @@ rm -f "$doc/LICENSE"
 {
   printf 'Canned light sources. The code is GPL-3.0-or-later:\n/usr/share/common-licenses/GPL-3.\n\n'
   printf 'Lamps, what is in /usr/share/canned/include-pov, and all that the programs generate is CC0-1.0:\n'
-  printf '/usr/share/common-licenses/CC0-1.0.\n\nCopyright: %s\n' "${whom% <*}"
+  printf '/usr/share/common-licenses/CC0-1.0.\n\nCopyright (C) %s %s\n' "$(date -u +%Y -d "@$SOURCE_DATE_EPOCH")" "${whom% <*}"
 } >"$doc/copyright"
 printf 'canned (%s) unstable; urgency=medium\n\n  * This version.\n\n -- %s  %s\n' "$version" "$whom" \
   "$(date -u -R -d "@$SOURCE_DATE_EPOCH")" | gzip -9n >"$doc/changelog.gz"

@@ -352,7 +352,7 @@ int cmd_bake(int argc, char **argv) {
   bake_options->libraries = arguments.libraries;
   bake_options->quiet = cli_quiet();
   lamp = bake_options->lamp;
-  if (bake_options->dry_run || (isatty(STDERR_FILENO) && !cli_quiet()))
+  if ((bake_options->dry_run || isatty(STDERR_FILENO)) && !cli_quiet())
     bake_options->tell_plan = tell_plan;
   if (!check_rays(bake_options)) return CLI_USAGE;
   set_sizes(bake_options);

@@ -25,7 +25,7 @@ kills() {
       1) scancel --signal=KILL "${job}_$task" ;;
     esac
     echo "${job}_$task with $done batches"
-    done=$((done + 10))
+    done=$((done + 20))
   done
 }
 
@@ -55,7 +55,7 @@ kills() {
 
 @test "every third task killed: interreflection" {
   # shellcheck disable=SC2046
-  canned-slurm -n 3 -c 2 -- $(tin) -o killed2.tif 2>log 3>&- &
+  canned-slurm -n 3 -- $(tin) -o killed2.tif 2>log 3>&- &
   kills killed2.tif 2 >killed.log 2>&1 || { cat killed.log log && false; }
   wait "$!" || { cat log && false; }
   same killed2.tif tin.tif
