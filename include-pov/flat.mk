@@ -7,7 +7,7 @@ DEMO_READS := include-pov/demo.pov include-pov/demo.sh
 
 $(DEMO)/parabolic.tif: lamps/parabolic.pov include-pov/canned.inc include-pov/canned_bake.inc $(BAKE_BIN)
 	@mkdir -p $(@D)
-	@echo 'Baking $< (a minute or two on two processors)'
+	@echo 'Baking $< (about a minute on two processors)'
 	@include-pov/demo.sh timed $(DEMO)/bake.seconds $(BAKE_BIN) bake $< -o $@
 
 $(DEMO)/parabolic.inc: $(DEMO)/parabolic.tif
@@ -24,7 +24,7 @@ $(DEMO)/renderslab.exr: $(DEMO)/parabolic.tif render/scenes/demo.obj render/scen
 	  --camera 'from=-30,-8,-150 at=0,-60,-10 fov=58' --size 320x160 -o $@
 
 $(DEMO)/full.exr: lamps/parabolic.pov include-pov/canned.inc $(DEMO_READS) | $(DEMO)/canned.exr
-	@echo 'Rendering it with the whole lamp and its interreflection (a minute or two)'
+	@echo 'Rendering it with the whole lamp and its interreflection (half a minute)'
 	@include-pov/demo.sh render demo $@ +FE +W320 +H160 -A +Llamps +Linclude-pov Declare=Full_Lamp=1
 
 # By one thread, for the same bits each time: POV-Ray's radiosity depends on which comes first.

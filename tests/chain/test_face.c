@@ -177,6 +177,8 @@ TEST(test_refusals) {
              bad[k].arguments, eye[0], eye[1], eye[2]);
     chain_says(&slab, sdl, 1, bad[k].says);
   }
+  /* A number is an eye, too: here one before the lamp. */
+  chain_says(&slab, "#include \"lamp.inc\"\nobject { Test_Lamp_Canned_Face(1, 1, 0) }", 0, "");
   slab_free(&slab);
 }
 

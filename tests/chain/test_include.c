@@ -47,6 +47,7 @@ TEST(test_tolerance) {
              "Test_Lamp_Canned: too small for POV-Ray's shadow tolerance with 4x4 lights");
   const char *advice = strstr(chain_log(), "use Scale >= ");
   assert_non_null(advice);
+  assert_non_null(strstr(advice, "centimetres")); /* the lamp's unit is a metre */
   double scale = atof(advice + strlen("use Scale >= "));
   assert_true(scale > 0.0148 && scale < 0.0152);
   char sdl[256];
