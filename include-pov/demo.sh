@@ -5,7 +5,8 @@
 #                                        CPU seconds
 #   demo.sh compare FOLDER               canned.exr against full.exr and renderslab.exr, as
 #                                        text and PNGs
-#   demo.sh corner FOLDER                tells what corner-canned.png and corner-full.png took
+#   demo.sh corner FOLDER                tells what corner-canned.png and corner-full.png took, and
+#                                        what that is in noise
 set -euo pipefail
 here=$(dirname "$0")
 
@@ -76,6 +77,12 @@ corner() {
 
 A furnished corner under the canned lamp, $1/corner-canned.png: $(cat "$1/corner-canned.seconds") CPU seconds.
 Under the whole lamp, with the blotches that radiosity has at equal time, $1/corner-full.png: $(cat "$1/corner-full.seconds").
+
+on plain pieces of wall                       canned lamp   whole lamp
+RMS deviation from smooth light               1 to 4 %      14 to 20 %
+their means against the canned lamp's                       27 % off (RMS)
+time for walls within 4 %                     1             50 to 140
+(measured once, the last line extrapolated: "What a slab costs and saves" in tests/RESULTS.md)
 TEXT
 }
 
