@@ -8,7 +8,7 @@
 // Pages: 1 to 4 the sides (towards +z, +x, -z, -x), 5 the top. The box is wide enough for
 // light to leave it within the windows, but for 3 %, of which `bakeslab check` warns: the glow of
 // the holes on the table beside the tin, which would need a page below.
-// Bake: bakeslab bake candle_tin.pov -o candle_tin.tif --uv 24x24 --st 64x64 --rays 64
+// Bake: bakeslab bake candle_tin.pov -o candle_tin.tif --uv 24x24 --st 64x64
 // Use: object { Candle_Tin_Canned(1, 1) translate 75*y }
 // Licence: CC0
 #version 3.7;

@@ -6,7 +6,7 @@
 // Pages: 1 to 4 the sides (towards +z, +x, -z, -x) of the box between base and roof, so that
 // there is no gap for light to get out. Base and roof shine to the side at all angles: 2 % of
 // the light is beyond the windows, as the bake says.
-// Bake: bakeslab bake lantern.pov -o lantern.tif --uv 16x16 --st 64x64 --rays 64
+// Bake: bakeslab bake lantern.pov -o lantern.tif --uv 12x12 --st 64x64
 // Use: object { Lantern_Canned(1, 1) } object { Lantern_Canned_Housing() }
 // Licence: CC0
 #version 3.7;

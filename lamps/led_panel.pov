@@ -5,7 +5,7 @@
 // black. (Of the diodes' domes rays see what is above the board.)
 // The diodes shine to all sides, of which `bakeslab check` warns: 7 % of the light is beyond slope
 // 4, 76 degrees.
-// Bake: bakeslab bake led_panel.pov -o led_panel.tif --uv 32x32 --st 32x32 --rays 64
+// Bake: bakeslab bake led_panel.pov -o led_panel.tif --uv 32x32 --st 32x32
 // Use: object { Led_Panel_Canned(1, 1) translate 60*y }
 // Licence: CC0
 #version 3.7;

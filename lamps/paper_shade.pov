@@ -5,7 +5,7 @@
 // back to the inside.
 // Pages: 1 to 4 the sides (towards +z, +x, -z, -x), 5 above, 6 below. From a shade in the middle
 // all light leaves a cube this wide within the windows, so nothing is cut off.
-// Bake: bakeslab bake paper_shade.pov -o paper_shade.tif --uv 12x12 --st 48x48
+// Bake: bakeslab bake paper_shade.pov -o paper_shade.tif --uv 16x16 --st 64x64
 // Use: object { Paper_Shade_Canned(1, 1) translate 150*y }, with nothing inside the cube
 // Licence: CC0
 #version 3.7;

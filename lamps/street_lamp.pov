@@ -1,13 +1,15 @@
 // A street lamp: 32 light-emitting diodes, each under a lens that throws its light along the
 // street rather than down: a batwing, brightest at some 60 degrees, so that the road is lit
 // evenly between two posts. Centimetres; it shines down through y = 0, 22 x 10 cm, the street
-// running along x; radiance in W/(sr m2), some 25 watts of light.
+// running along x; radiance in W/(sr m2), some 17 watts of light.
 // It calls for nothing: rays find the diodes themselves through the lenses, and the board around
 // these is black.
 // A lens is shaped by Snell's law, plane by plane through its axis: light that leaves the diode
 // at an angle a, a share sin(a)^2 of it, goes to the angle b with tan(b) = Spread*sin(a), so that
 // equal shares go to equal areas of the road.
-// Bake: bakeslab bake street_lamp.pov -o street_lamp.tif --uv 16x8 --st 96x64 --rays 32
+// Positions are 7 mm apart, not much more than a diode is wide behind its lens: in larger ones
+// few rays would find it.
+// Bake: bakeslab bake street_lamp.pov -o street_lamp.tif --uv 32x16 --st 96x64 --rays 24
 // Use: object { Street_Lamp_Canned(1, 1) translate 800*y } and its housing likewise
 // Licence: CC0
 #version 3.7;

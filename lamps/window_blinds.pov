@@ -2,10 +2,12 @@
 // the sky above and the meadow below, and is thrown up to the ceiling by the slats. Centimetres;
 // 140 x 120 cm, its middle at the origin; radiance in W/(sr m2).
 // It calls for interreflection: what the slats and the reveal show is light that they throw on.
-// The sky is a thing that glows, far away and outside alone: a background is no light of the lamp's. The wall goes
-// on around the window, so that nothing passes beside it. Light that comes in nearly along the
-// wall, 1 % of it, is beyond the window of slopes.
-// Bake: bakeslab bake window_blinds.pov -o window_blinds.tif --uv 8x48 --st 32x64 --rays 16
+// The sky is a thing that glows, far away and outside alone: a background is no light of the
+// lamp's. The wall goes on around the window, so that nothing passes beside it. Light that comes in
+// nearly along the wall, 1 % of it, is beyond the window of slopes.
+// A position is as high as a slat's pitch. Directions are many up and down, where the slats' edges
+// end the light, and few to the sides.
+// Bake: bakeslab bake window_blinds.pov -o window_blinds.tif --uv 4x24 --st 24x256
 // Use: object { Window_Blinds_Canned(1, 0.02) translate <0, 150, 200> }
 // Licence: CC0
 #version 3.7;
