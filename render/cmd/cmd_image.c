@@ -314,7 +314,9 @@ static enum result run(void *input, struct error *error) {
 static const char help_text[] =
     "Renders an OBJ, glTF or PLY scene lit by light slabs. Meshes are mirrored in z into POV-Ray's "
     "coordinates. A surface shows emission + diffuse E/pi and a highlight, as in POV-Ray; where "
-    "the camera looks into a lamp it sees the slab.\n\n"
+    "the camera looks into a lamp it sees the slab. The air is clear: there is no fog and there "
+    "are "
+    "no other media. `renderslab pov' writes the view for POV-Ray, which has them.\n\n"
     "With --tile a picture is shared out to several processes or machines: each renders some rows, "
     "and renderslab join puts them together.\n\n"
     "--stats tells the picture's error against the lamps themselves, too: RMS over mean of the "

@@ -64,7 +64,8 @@ static const struct argp_option options_list[] = {
 static const char help_text[] =
     "Writes the view that `renderslab image' renders as a POV-Ray 3.7 scene, which lights it by "
     "the include files of the same slabs: NAME.inc beside NAME.tif, made by `bakeslab include'. "
-    "The scene's first lines say how to render it."
+    "The scene's first lines say how to render it. What renderslab does not have, such as fog, may "
+    "be added to it."
     "\vExamples, for room.obj of share/canned/include-pov:\n"
     "  bakeslab include lamp.tif -o lamp.inc\n"
     "  renderslab pov room.obj --light 'lamp.tif at=0,190,20' \\\n"

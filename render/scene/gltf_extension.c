@@ -15,11 +15,20 @@ static const char *const read_here[] = {"KHR_mesh_quantization",
 
 /* These change nothing, or are told otherwise, or a file that does not require them has the same
  * without them. */
-static const char *const silent[] = {
-    "KHR_lights_punctual",     "KHR_materials_transmission", "KHR_animation_pointer",
-    "KHR_texture_basisu",      "EXT_texture_avif",           "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression", "KHR_meshopt_compression",    "KHR_xmp",
-    "KHR_xmp_json_ld",         "FB_ngon_encoding",           NULL};
+static const char *const silent[] = {"KHR_lights_punctual",
+                                     "KHR_materials_transmission",
+                                     "KHR_materials_volume",
+                                     "KHR_animation_pointer",
+                                     "KHR_texture_basisu",
+                                     "EXT_texture_avif",
+                                     "KHR_draco_mesh_compression",
+                                     "KHR_materials_volume_scatter",
+                                     "EXT_meshopt_compression",
+                                     "KHR_meshopt_compression",
+                                     "KHR_xmp",
+                                     "KHR_xmp_json_ld",
+                                     "FB_ngon_encoding",
+                                     NULL};
 
 /* What only surfaces and lights have; shapes are the same without. */
 static const char *const of_surfaces[] = {

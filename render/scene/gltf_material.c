@@ -93,6 +93,14 @@ static bool is_transparent(const json_t *json, const struct paint *paint,
          (blends && (paint->base[3] < 1 || (texture && texture->transparent)));
 }
 
+/* KHR_materials_volume: a medium that absorbs, where it has a thickness and a colour;
+ * KHR_materials_volume_scatter: one that scatters. */
+static bool has_medium(const json_t *json) {
+  const json_t *volume = gltf_extension(json, "KHR_materials_volume");
+  return gltf_number(volume, "thicknessFactor", 0) > 0 ||
+         gltf_extension(json, "KHR_materials_volume_scatter");
+}
+
 static enum result check_textures(struct gltf *gltf, const json_t *json, const struct paint *paint,
                                   const struct scene_material *material, struct error *error) {
   static const char has[] = "material '%s' has a texture that is %s";
@@ -138,6 +146,8 @@ static enum result read_material(struct gltf *gltf, const json_t *json,
   if (result == RESULT_OK)
     result = ignore(gltf, SCENE_TRANSPARENCY, is_transparent(json, &paint, texture), material->name,
                     error);
+  if (result == RESULT_OK)
+    result = ignore(gltf, SCENE_MEDIA, has_medium(json), material->name, error);
   if (result == RESULT_OK)
     result = ignore(gltf, SCENE_BUMPS, json_object_get(json, "normalTexture") != NULL,
                     material->name, error);

@@ -62,6 +62,7 @@ struct scene_camera {
 /* What a file asks for that changes nothing in the picture, or not all that it should. */
 enum scene_ignored {
   SCENE_TRANSPARENCY,
+  SCENE_MEDIA, /* inside of surfaces */
   SCENE_BUMPS,
   SCENE_PICTURES, /* of a texture's file, beyond the first */
   SCENE_COLOURS,

@@ -11,6 +11,8 @@ enum { MOST_NAMES = 400 };
 bool scene_ignore(struct scene_loading *loading, enum scene_ignored kind, const char *name) {
   static const char *const sentences[SCENE_IGNORED] = {
       [SCENE_TRANSPARENCY] = "transparency is ignored, surfaces are opaque:",
+      [SCENE_MEDIA] =
+          "media are ignored, light is neither dimmed nor scattered inside of surfaces:",
       [SCENE_BUMPS] = "bump and normal maps are ignored:",
       [SCENE_PICTURES] = "only the first picture of a texture's file is read:",
       [SCENE_COLOURS] = "colours of vertices are ignored:",

@@ -80,6 +80,29 @@ TEST(extensions) {
   scene_free(&scene);
 }
 
+/* Media inside of surfaces are told, where there are any. */
+TEST(media) {
+  static const char *const volumes[] = {"\"KHR_materials_volume\":{\"thicknessFactor\":1}",
+                                        "\"KHR_materials_volume_scatter\":{}",
+                                        "\"KHR_materials_volume\":{}"};
+  for (int k = 0; k < 3; ++k) {
+    char to[256];
+    snprintf(to, sizeof to, ",1]},\"name\":\"milk\",\"extensions\":{%s}}", volumes[k]);
+    struct scene scene = meshes_load(
+        changed("milk.gltf", SCENE MESH ",\"extensionsUsed\":[\"KHR_materials_volume\"]", ",1]}}",
+                to),
+        SCENE_SURFACES, false, NULL);
+    if (k < 2)
+      assert_string_equal(
+          scene.ignored[SCENE_MEDIA],
+          "media are ignored, light is neither dimmed nor scattered inside of surfaces: 'milk'");
+    else
+      assert_null(scene.ignored[SCENE_MEDIA]);
+    assert_null(scene.ignored[SCENE_EXTENSIONS]);
+    scene_free(&scene);
+  }
+}
+
 /* Data that only an extension gives is refused by its name, required or not. */
 TEST(compressed) {
   static const struct {
