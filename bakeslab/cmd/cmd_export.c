@@ -56,10 +56,9 @@ static const struct argp_option options[] = {
     {"force", KEY(force), NULL, 0, "Replace a folder that an export made", 1},
     {"name", 'n', "NAME", 0, "Call the lamp NAME rather than what the slab says", 1},
     {"tolerance", KEY(wish.tolerance), "T", 0,
-     "Relative error of what a kind approximates (default 0.01). radiance: of irradiance one "
-     "aperture width away, without --polygons; mitsuba --plain: of irradiance four widths away; "
-     "ies, ldt: of intensities between the angles, as a "
-     "part of the largest",
+     "Relative error of what a kind approximates (default 0.01; ies, ldt: 0.005). radiance: of "
+     "irradiance one aperture width away, without --polygons; mitsuba --plain: of irradiance four "
+     "widths away; ies, ldt: of intensities between the angles, as a part of the largest",
      2},
     {"polygons", KEY(wish.polygons), "NxM", 0,
      "radiance: cut each aperture into so many sources along u and v; the default follows from "
@@ -116,7 +115,8 @@ static void check_arguments(struct arguments *arguments, struct argp_state *stat
   if (arguments->kind) check_kind(arguments, state);
   if (!arguments->wish.rays) arguments->wish.rays = 100000;
   if (arguments->wish.seed < 0) arguments->wish.seed = 1;
-  if (arguments->wish.tolerance == 0) arguments->wish.tolerance = 0.01;
+  bool far = !strcmp(arguments->kind->name, "ies") || !strcmp(arguments->kind->name, "ldt");
+  if (arguments->wish.tolerance == 0) arguments->wish.tolerance = far ? 0.005 : 0.01;
 }
 
 static error_t parse_option(int key, char *text, struct argp_state *state) {

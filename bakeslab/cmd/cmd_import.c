@@ -38,8 +38,9 @@ static const struct argp_option options[] = {
     {"uv", KEY(wish.uv), "NxM", 0, "Positions on each page", 2},
     {"st", KEY(wish.st), "NxM", 0, "Directions of each position", 2},
     {"tolerance", KEY(wish.tolerance), "T", 0,
-     "Photometric files: choose the number of samples so that candela err by at most T (0.02 is "
-     "2 %). Ray files: the fewest, up to 16x16 x 64x64, for which the error of irradiance is at "
+     "Photometric files: choose windows and the number of samples so that candela err by at most T "
+     "of the largest (default 0.005; round bodies: 0.05). Ray files: the fewest, up to 16x16 x "
+     "64x64, for which the error of irradiance is at "
      "most T (relative RMS) at 4 apertures and beyond; --uv and --st, where given, stay",
      2},
     {"name", 'n', "NAME", 0, "The lamp's name (default: that of the first file)", 2},

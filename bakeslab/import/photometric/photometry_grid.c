@@ -1,7 +1,5 @@
 /* photometry_grid.c -
- *  1. A cell's mean is a sum over points of it, nearer to each other than half the table's steps:
- *     means keep the flux, samples at the middle do not. Of round bodies, the intensity is a mean,
- *     and the area that it is divided by a sample, since it has a cusp.
+ *  1. Takes the pages' cells (photometry_cells.h).
  *  2. The far field towards d is the sum over pages of area, cosine, share and interpolated mean.
  *  3. The pages that are off by most get cells finer by half, until the far field is right within
  *     the tolerance.
@@ -21,120 +19,26 @@ enum {
   MOST = 1024,
   MOST_SAMPLES = 1 << 23,  /* of all pages, with as few positions as may be */
   CHEAP_SAMPLES = 1 << 20, /* and where finer cells do not help: tables may jump */
-  MOST_POINTS = 24,        /* of a cell, along each axis */
-  CUSP = 4,                /* the same, where a cusp is */
-  SPHERE = 4000,           /* directions of the measure of error */
+  SPHERE = 4000,           /* directions of the measure of error, where it is light */
+  MOST_SPHERE = 1 << 16,   /* and of those with the dark ones */
   TABLE = 4000             /* and of the table's own, at most */
 };
 
 static const double round_cell = 0.2, along_cell = 0.29, growth_cell = 0.4;
 static const double most_factor = 0.05;
-static const double still_better = 0.9; /* of the error before, for cells that are not cheap */
+/* Cells that are not cheap must help: directions beyond the tolerance are more than a part of all,
+ * or the largest error is near to it and still falls. */
+static const double most_beyond = 0.005, near_enough = 4, still_better = 0.9;
+/* Cells are fine where the far field errs by so much of the tolerance: windows take their part. */
+static const double cells_part = 0.4;
 
 void photometry_grid_free(struct photometry_grid *grid) {
-  for (int n = 0; n < BODY_FACES; ++n) {
-    free(grid->page[n].mean);
-    free(grid->page[n].share);
-  }
+  for (int n = 0; n < BODY_FACES; ++n) photometry_cells_free(&grid->page[n]);
   *grid = (struct photometry_grid){0};
 }
 
 static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* The least step of ascending values; 180 for one. */
-static double least_step(const double *values, int count) {
-  double least = 180;
-  for (int k = 1; k < count; ++k) least = fmin(least, values[k] - values[k - 1]);
-  return least;
-}
-
-/* The angle between points of a cell, radians. */
-static double point_step(const struct photometry *lamp) {
-  double step = fmin(least_step(lamp->plane, lamp->planes), least_step(lamp->row, lamp->rows));
-  return fmax(step, 0.25) * M_PI / 180 / 2;
-}
-
-/* Where a direction is a page's normal, the projected area of a body with sides has a cusp, and so
- * has either the radiance or the intensity. Only samples in the middle of cells there keep it when
- * they are interpolated; but what neighbours leave to the page is a mean there, too. */
-static double cusp_radiance(const struct photometry *lamp, const struct photometry_pages *pages,
-                            int page, const double middle[2], const double step[2]) {
-  double d[3], kept = 0;
-  for (int k = 0; k < CUSP * CUSP; ++k) {
-    double s = middle[0] + ((k % CUSP + 0.5) / CUSP - 0.5) * step[0];
-    double t = middle[1] + ((k / CUSP + 0.5) / CUSP - 0.5) * step[1];
-    photometry_direction(pages, page, s, t, d);
-    kept += photometry_gain(pages, page, d) * photometry_area(&pages->body, d) / (CUSP * CUSP);
-  }
-  photometry_direction(pages, page, middle[0], middle[1], d);
-  return kept * photometry_candela(lamp, d) / photometry_area(&pages->body, d);
-}
-
-/* The middle of the cell lies where one of the slopes is 0. */
-static bool holds_normal(const double middle[2], const double step[2]) {
-  return fabs(middle[0]) < 1e-6 * step[0] || fabs(middle[1]) < 1e-6 * step[1];
-}
-
-/* The radiance of a cell: the mean intensity, weighted by cos^4 as the flux is in slopes, and what
- * the body makes of it in the middle. */
-static double cell_mean(const struct photometry *lamp, const struct photometry_pages *pages,
-                        int page, const double low[2], const double step[2], double angle) {
-  double middle[2] = {low[0] + step[0] / 2, low[1] + step[1] / 2}, sum = 0, weights = 0;
-  double near[2] = {fmax(0, fabs(middle[0]) - step[0] / 2), fmax(0, fabs(middle[1]) - step[1] / 2)};
-  double wide = 1 / sqrt(1 + near[0] * near[0] + near[1] * near[1]), d[3];
-  int n[2];
-  bool even = photometry_is_even(&pages->body);
-  if (!even && holds_normal(middle, step)) return cusp_radiance(lamp, pages, page, middle, step);
-  for (int axis = 0; axis < 2; ++axis)
-    n[axis] = (int)fmin(fmax(ceil(step[axis] * wide / angle), 2), MOST_POINTS);
-  for (int j = 0; j < n[1]; ++j)
-    for (int i = 0; i < n[0]; ++i) {
-      double s = low[0] + (i + 0.5) / n[0] * step[0], t = low[1] + (j + 0.5) / n[1] * step[1];
-      double weight = 1 / pow(1 + s * s + t * t, 2);
-      photometry_direction(pages, page, s, t, d);
-      sum +=
-          weight * (even ? photometry_radiance(lamp, pages, page, d) : photometry_candela(lamp, d));
-      weights += weight;
-    }
-  if (even) return sum / weights;
-  photometry_direction(pages, page, middle[0], middle[1], d);
-  return sum / weights * photometry_gain(pages, page, d);
-}
-
-/* The part of a page that sends light in a direction. */
-static double page_share(const struct photometry_pages *pages, int page, double s, double t) {
-  const struct photometry_face *face = &pages->body.face[pages->page[page].face];
-  double d[3];
-  if (pages->body.shape == PHOTOMETRY_BOX) return 1;
-  photometry_direction(pages, page, s, t, d);
-  return photometry_face_area(&pages->body, pages->page[page].face, d) /
-         (face->size[0] * face->size[1] * dot(d, face->normal));
-}
-
-static enum result take_cells(const struct photometry *lamp, const struct photometry_pages *pages,
-                              int page, const int n[2], struct photometry_cells *cells,
-                              struct error *error) {
-  const double *window = pages->page[page].window;
-  double step[2] = {(window[1] - window[0]) / n[0], (window[3] - window[2]) / n[1]};
-  double angle = point_step(lamp);
-  size_t count = (size_t)n[0] * (size_t)n[1];
-  free(cells->mean);
-  free(cells->share);
-  cells->mean = calloc(count, sizeof *cells->mean);
-  cells->share = calloc(count, sizeof *cells->share);
-  if (!cells->mean || !cells->share) return result_no_memory(error);
-  cells->n[0] = n[0];
-  cells->n[1] = n[1];
-  for (int l = 0; l < n[1]; ++l)
-    for (int k = 0; k < n[0]; ++k) {
-      double low[2] = {window[0] + k * step[0], window[2] + l * step[1]};
-      size_t at = (size_t)l * (size_t)n[0] + (size_t)k;
-      cells->mean[at] = cell_mean(lamp, pages, page, low, step, angle);
-      cells->share[at] = page_share(pages, page, low[0] + step[0] / 2, low[1] + step[1] / 2);
-    }
-  return RESULT_OK;
 }
 
 /* Where x lies between the middles of n cells of [low, high]: constant beyond the outermost. */
@@ -167,15 +71,28 @@ static void page_candela(const struct photometry *lamp, const struct photometry_
   }
   area = face->size[0] * face->size[1] * dot(d, face->normal);
   *made = value * area;
-  *right = photometry_radiance(lamp, pages, page, d) * page_share(pages, page, st[0], st[1]) * area;
+  *right = photometry_radiance(lamp, pages, page, d) * photometry_share(pages, page, st[0], st[1]) *
+           area;
 }
 
-/* Directions all over the sphere, alike near each other (a spiral of the golden angle). */
-static void spiral(int n, double d[3]) {
-  double y = 1 - 2 * (n + 0.5) / SPHERE, turn = n * M_PI * (3 - sqrt(5)), r = sqrt(1 - y * y);
+/* Direction n of count all over the sphere, alike near each other (a spiral of the golden angle).
+ */
+static void spiral(int n, int count, double d[3]) {
+  double y = 1 - 2 * (n + 0.5) / count, turn = n * M_PI * (3 - sqrt(5)), r = sqrt(1 - y * y);
   d[0] = r * cos(turn);
   d[1] = y;
   d[2] = r * sin(turn);
+}
+
+/* As many directions as have SPHERE among them where it is light. */
+static int sphere_of(const struct photometry *lamp) {
+  double d[3];
+  int lit = 0;
+  for (int n = 0; n < SPHERE; ++n) {
+    spiral(n, SPHERE, d);
+    lit += photometry_candela(lamp, d) != 0;
+  }
+  return (int)fmin(MOST_SPHERE, SPHERE * (double)SPHERE / fmax(1, lit));
 }
 
 static int by_size(const void *left, const void *right) {
@@ -183,44 +100,66 @@ static int by_size(const void *left, const void *right) {
   return (a > b) - (a < b);
 }
 
-/* The direction of the measure: SPHERE of the spiral, then the table's. */
-static size_t directions(const struct photometry *lamp, size_t *stride) {
-  size_t count = (size_t)lamp->planes * (size_t)lamp->rows;
-  *stride = (count + TABLE - 1) / TABLE;
-  return SPHERE + (count + *stride - 1) / *stride;
+/* Intensity of all pages, and own[page]: by how much a page is off at most. */
+static double candela_of(const struct photometry *lamp, const struct photometry_pages *pages,
+                         const struct photometry_grid *grid, const double d[3],
+                         double own[BODY_FACES]) {
+  double total = 0, made, right;
+  for (int p = 0; p < pages->count; ++p) {
+    page_candela(lamp, pages, p, &grid->page[p], d, &made, &right);
+    total += made;
+    own[p] = fmax(own[p], fabs(made - right));
+  }
+  return total;
 }
 
-/* Fills the grid's error, and own[page]: by how much each page is off at most. */
-static enum result measure(const struct photometry *lamp, const struct photometry_pages *pages,
-                           struct photometry_grid *grid, double own[BODY_FACES],
-                           struct error *error) {
-  double *off = malloc(SPHERE * sizeof *off), peak = 0, sum = 0, squares = 0, d[3];
-  if (!off) return result_no_memory(error);
-  size_t stride, count = directions(lamp, &stride), all = (size_t)lamp->planes * (size_t)lamp->rows;
-  for (size_t n = 0; n < all; ++n) peak = fmax(peak, fabs(lamp->candela[n]));
-  for (int p = 0; p < pages->count; ++p) own[p] = 0;
-  grid->error.most = 0;
-  for (size_t n = 0; n < count; ++n) {
-    double total = 0, made, right;
-    if (n < SPHERE)
-      spiral((int)n, d);
-    else
-      photometry_table_direction(lamp, (n - SPHERE) * stride, d);
-    for (int p = 0; p < pages->count; ++p) {
-      page_candela(lamp, pages, p, &grid->page[p], d, &made, &right);
-      total += made;
-      own[p] = fmax(own[p], fabs(made - right) / peak);
-    }
-    double candela = photometry_candela(lamp, d), difference = fabs(total - candela) / peak;
-    grid->error.most = fmax(grid->error.most, difference);
-    if (n >= SPHERE) continue;
-    off[n] = difference;
-    sum += difference * difference;
-    squares += candela * candela / (peak * peak);
+/* In the table's own directions, which a sphere's may miss. */
+static double most_in_table(const struct photometry *lamp, const struct photometry_pages *pages,
+                            const struct photometry_grid *grid, double own[BODY_FACES]) {
+  size_t count = (size_t)lamp->planes * (size_t)lamp->rows, stride = (count + TABLE - 1) / TABLE;
+  double most = 0, d[3];
+  for (size_t n = 0; n < count; n += stride) {
+    photometry_table_direction(lamp, n, d);
+    double made = candela_of(lamp, pages, grid, d, own);
+    most = fmax(most, fabs(made - photometry_candela(lamp, d)));
   }
-  qsort(off, SPHERE, sizeof *off, by_size);
-  grid->error.most95 = off[SPHERE * 95 / 100];
+  return most;
+}
+
+static double largest(const struct photometry *lamp) {
+  size_t count = (size_t)lamp->planes * (size_t)lamp->rows;
+  double peak = 0;
+  for (size_t n = 0; n < count; ++n) peak = fmax(peak, fabs(lamp->candela[n]));
+  return peak;
+}
+
+/* Fills the grid's error, and own[page], over the peak. */
+static enum result measure(const struct photometry *lamp, const struct photometry_pages *pages,
+                           double tolerance, struct photometry_grid *grid, double own[BODY_FACES],
+                           struct error *error) {
+  int sphere = sphere_of(lamp), lit = 0, beyond = 0;
+  double *off = malloc((size_t)sphere * sizeof *off), sum = 0, squares = 0, d[3];
+  if (!off) return result_no_memory(error);
+  double peak = largest(lamp);
+  for (int p = 0; p < BODY_FACES; ++p) own[p] = 0;
+  double most = most_in_table(lamp, pages, grid, own);
+  for (int n = 0; n < sphere; ++n) {
+    spiral(n, sphere, d);
+    double candela = photometry_candela(lamp, d), made = candela_of(lamp, pages, grid, d, own);
+    double difference = fabs(made - candela);
+    most = fmax(most, difference);
+    sum += difference * difference;
+    squares += candela * candela;
+    if (made == 0 && candela == 0) continue;
+    beyond += difference > tolerance * peak;
+    off[lit++] = difference;
+  }
+  qsort(off, (size_t)lit, sizeof *off, by_size);
+  grid->error.most = most / peak;
+  grid->error.most95 = lit > 0 ? off[lit * 95LL / 100] / peak : 0;
+  grid->error.beyond = lit > 0 ? (double)beyond / lit : 0;
   grid->error.rms = squares > 0 ? sqrt(sum / squares) : 0;
+  for (int p = 0; p < BODY_FACES; ++p) own[p] /= peak;
   free(off);
   return RESULT_OK;
 }
@@ -310,16 +249,16 @@ static bool refine(const struct photometry_pages *pages, const double own[BODY_F
 /* The changed pages' cells, then what comes of all. */
 static enum result take(const struct photometry *lamp, const struct photometry_pages *pages,
                         const int across[BODY_FACES], const int st[2],
-                        const bool changed[BODY_FACES], struct photometry_grid *grid,
-                        double own[BODY_FACES], struct error *error) {
+                        const bool changed[BODY_FACES], double tolerance,
+                        struct photometry_grid *grid, double own[BODY_FACES], struct error *error) {
   enum result result = RESULT_OK;
   for (int p = 0; p < pages->count && result == RESULT_OK; ++p) {
     int n[2] = {st[0], st[1]};
     if (!changed[p]) continue;
     if (!(st[0] > 0)) count_cells(pages, p, across[p], n);
-    result = take_cells(lamp, pages, p, n, &grid->page[p], error);
+    result = photometry_cells_take(lamp, pages, p, n, &grid->page[p], error);
   }
-  if (result == RESULT_OK) result = measure(lamp, pages, grid, own, error);
+  if (result == RESULT_OK) result = measure(lamp, pages, tolerance, grid, own, error);
   return result;
 }
 
@@ -329,7 +268,8 @@ static bool is_done(const struct photometry_grid_error *error, const double own[
                     int pages, double tolerance) {
   double most = 0;
   for (int p = 0; p < pages; ++p) most = fmax(most, own[p]);
-  return most <= tolerance || (error->most95 <= tolerance && error->most <= 2.5 * tolerance);
+  return most <= cells_part * tolerance ||
+         (error->most95 <= cells_part * tolerance && error->most <= tolerance);
 }
 
 /* By how much the body's area grows with the slope from a page's normal on, per slope; the larger
@@ -364,16 +304,19 @@ enum result photometry_grid(const struct photometry *lamp, const struct photomet
   double own[BODY_FACES] = {0}, before = INFINITY;
   *grid = (struct photometry_grid){0};
   for (int p = 0; p < pages->count; ++p) across[p] = first_across(pages, p), changed[p] = true;
-  enum result result = take(lamp, pages, across, st, changed, grid, own, error);
+  enum result result = take(lamp, pages, across, st, changed, tolerance, grid, own, error);
   while (result == RESULT_OK && !(st[0] > 0) &&
          !is_done(&grid->error, own, pages->count, tolerance)) {
-    bool better = grid->error.most95 > tolerance || grid->error.most <= still_better * before;
-    if (!refine(pages, own, tolerance, better ? MOST_SAMPLES : CHEAP_SAMPLES, across, changed))
+    bool better =
+        grid->error.beyond > most_beyond ||
+        (grid->error.most <= near_enough * tolerance && grid->error.most <= still_better * before);
+    if (!refine(pages, own, cells_part * tolerance, better ? MOST_SAMPLES : CHEAP_SAMPLES, across,
+                changed))
       break;
     before = grid->error.most;
-    result = take(lamp, pages, across, st, changed, grid, own, error);
+    result = take(lamp, pages, across, st, changed, tolerance, grid, own, error);
   }
   if (result == RESULT_OK) result = fit_flux(lamp, pages, grid, error);
-  if (result == RESULT_OK) result = measure(lamp, pages, grid, own, error);
+  if (result == RESULT_OK) result = measure(lamp, pages, tolerance, grid, own, error);
   return result;
 }

@@ -1,22 +1,16 @@
-/* photometry_grid.h - the directions of a lamp's pages as grids of cells: how fine they must be,
- * and what the far field of the slab then is. */
+/* photometry_grid.h - how fine the cells of a lamp's pages must be, and what the far field of the
+ * slab then is. */
 #ifndef PHOTOMETRY_GRID_H
 #define PHOTOMETRY_GRID_H
 
-#include "import/photometric/photometry_pages.h"
-
-/* One page's. Cell (k, l) is number l * n[0] + k. */
-struct photometry_cells {
-  int n[2];      /* cells along s and t */
-  double *mean;  /* of the radiance, cd/m2, by the flux of its rays; owned */
-  double *share; /* of the page that sends light in the cell's direction; owned */
-};
+#include "import/photometric/photometry_cells.h"
 
 /* How far the far field, interpolated between the cells as a slab is, is from the table. */
 struct photometry_grid_error {
   double rms;    /* relative, weighted by solid angle */
-  double most95; /* over the largest intensity, of 95 % of the directions of a sphere */
+  double most95; /* over the largest intensity, of 95 % of the directions where it is light */
   double most;   /* of all of them and of the table's own */
+  double beyond; /* the part of the lit directions that are off by more than the tolerance */
   double factor; /* on all cells, for the flux */
 };
 
@@ -25,8 +19,8 @@ struct photometry_grid {
   struct photometry_grid_error error;
 };
 
-/* Takes the cells. st: how many; 0: as few as keep most95 within the tolerance and most within 2.5
- * times that, up to a limit. Light beyond the windows, and what interpolation changes, is made up
+/* Takes the cells. st: how many; 0: as few as keep most within the tolerance and most95 within 0.4
+ * of that, up to a limit. Light beyond the windows, and what interpolation changes, is made up
  * for by one factor on all cells, so that the slab's flux is the table's. Free with
  * photometry_grid_free, also after a failure. */
 enum result photometry_grid(const struct photometry *lamp, const struct photometry_pages *pages,

@@ -19,10 +19,11 @@ enum {
 static const double steepest = 89.5;    /* degrees */
 static const double steep_slope = 28.6; /* 88 degrees: where windows end, but along cylinders */
 
-/* Beyond an end: part of the lamp's flux, and the intensity there over the lamp's largest (of flat
- * ones, that lose it only along themselves, more); where a neighbour takes it over, part of the
- * flux, or of the area in each direction: so much brighter the neighbour becomes there. */
-static const double cut_flux = 0.0005, cut_peak = 0.015, cut_flat = 0.04, cut_shared = 0.0002,
+/* Beyond an end: part of the lamp's flux, and the intensity there over the lamp's largest, as a
+ * part of the tolerance (of flat ones, that lose it only along themselves, more); where a neighbour
+ * takes it over, part of the flux, or of the area in each direction: so much brighter the neighbour
+ * becomes there. */
+static const double cut_flux = 0.0005, cut_peak = 0.3, cut_flat = 0.8, cut_shared = 0.0002,
                     cut_narrow = 0.002, cut_share = 0.015, cut_round = 0.03;
 /* Slopes beyond which a neighbour may go on: it faces such directions more than the page does; of
  * round bodies where the page's part of the area is small, too. */
@@ -91,6 +92,7 @@ static void count_direction(const struct photometry_body *body, const double d[3
 
 static void look(const struct photometry *lamp, const struct photometry_body *body,
                  struct survey *survey) {
+  size_t count = (size_t)lamp->planes * (size_t)lamp->rows;
   *survey = (struct survey){0};
   for (int j = 0; j < STEPS_GAMMA; ++j) {
     double gamma = (j + 0.5) * M_PI / STEPS_GAMMA;
@@ -100,6 +102,11 @@ static void look(const struct photometry *lamp, const struct photometry_body *bo
       double d[3] = {sin(gamma) * cos(c), -cos(gamma), sin(gamma) * sin(c)};
       count_direction(body, d, photometry_candela(lamp, d), ring, survey);
     }
+  }
+  for (size_t n = 0; n < count; ++n) { /* narrow beams' largest may lie between those */
+    double d[3];
+    photometry_table_direction(lamp, n, d);
+    count_direction(body, d, lamp->candela[n], 0, survey);
   }
 }
 
@@ -189,7 +196,7 @@ static bool loses(const struct survey *survey, const struct photometry_body *bod
 }
 
 static void choose(const struct survey *survey, double tolerance, struct photometry_pages *pages) {
-  double peak_cut = fmax(count_faces(&pages->body) > 2 ? cut_peak : cut_flat, 0.75 * tolerance);
+  double peak_cut = tolerance * (count_faces(&pages->body) > 2 ? cut_peak : cut_flat);
   pages->count = 0;
   for (int f = 0; f < BODY_FACES; ++f) {
     struct photometry_page *page = &pages->page[pages->count];
