@@ -99,6 +99,12 @@ $(BENCH_SLAB_RAYS): $(B)/tests/bench/slab_rays.o $(ORACLE) $(B)/libslab.a
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
 
+BENCH_CELL_ERROR := $(B)/tests/bench/cell_error
+
+$(BENCH_CELL_ERROR): $(B)/tests/bench/cell_error.o $(ORACLE) $(B)/libslab.a
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) $^ $(ALL_LDLIBS) -o $@
+
 BENCH_EXPORT := $(patsubst %,$(B)/tests/export/test_%,pages radiance light)
 
 TRADEOFF_LAMPS := $(B)/tests/tradeoff/lamps
@@ -144,7 +150,7 @@ engines: $(BIN) ## install Radiance, Mitsuba and Blender's bpy for tests (ENGINE
 	@$(MAKE) --no-print-directory SETUP=no test T='$(if $(filter command%,$(origin T)),$(T),export/%)'
 	@sed -nE 's/^# (.*: (rays|irradiance) by (rtrace|Mitsuba|Cycles).*): /  \1  /p' $(B)/tests/export/*.log
 
-bench: $(BIN) $(B)/tests/faults/fake_povray $(B)/tests/chain/test_photometric $(B)/tests/unit/test_photometry_slab $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(BENCH_EXPORT) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr $(DEMO)/renderslab.exr ## measure, and print the tables of tests/RESULTS.md
+bench: $(BIN) $(B)/tests/faults/fake_povray $(B)/tests/chain/test_photometric $(B)/tests/unit/test_photometry_slab $(BENCH_FLOOR) $(BENCH_SUM) $(BENCH_FRAMES) $(BENCH_RAYS) $(BENCH_ESTIMATE) $(BENCH_SLAB_RAYS) $(BENCH_CELL_ERROR) $(BENCH_EXPORT) $(TRADEOFF_LAMPS) $(DEMO)/canned.exr $(DEMO)/full.exr $(DEMO)/renderslab.exr ## measure, and print the tables of tests/RESULTS.md
 	@mkdir -p build/bench
 	@for b in $(filter $(T:%=tests/%.sh),$(wildcard tests/bench/*.sh)); do [ -x "$$b" ] || continue; \
 	  $(TEST_ENV) BUILD=$(abspath build/bench) TESTS=$(abspath $(B)/tests) TOOLS=$(abspath $(B)/tests/bench) LAMPS=$(abspath $(TRADEOFF_LAMPS)) DEMO=$(abspath $(DEMO)) "$$b" || exit 1; done
