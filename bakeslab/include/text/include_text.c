@@ -78,8 +78,8 @@ static const char *tell_centimetres(const struct slab *frame, char text[96]) {
   double metres = frame->metres_per_unit;
   *text = '\0';
   if (metres > 0.01)
-    snprintf(text, 96, " (in a scene in centimetres Scale is %.4g: the lamp's unit is %.4g m)",
-             100 * metres, metres);
+    snprintf(text, 96, "its unit is %.4g m: in a scene in centimetres Scale is %.4g", metres,
+             100 * metres);
   return text;
 }
 
