@@ -20,7 +20,7 @@ struct far_grid {
 /* Intensities of all pages, between the tables' axes of type C (export_photometry.h). Free with
  * far_grid_free, also after a failure. Steps are halved until all but a hundredth of the lit
  * directions between two planes, or two angles, are off by no more than the tolerance, down to
- * 0.08 degrees between angles and 0.23 between planes, while the table is of bearable size. */
+ * 0.005 degrees between angles and 0.015 between planes, while the table is of bearable size. */
 enum result far_grid_make(const struct far_page *pages, int count, double tolerance,
                           struct far_grid *grid, struct error *error);
 void far_grid_free(struct far_grid *grid); /* zeroed ones allowed */

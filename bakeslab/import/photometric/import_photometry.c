@@ -10,9 +10,9 @@
 #include "import/photometric/ies.h"
 #include "import/photometric/photometry_slab.h"
 
-/* Of the largest intensity. Round bodies shine unlike from each position, so that finer
- * directions cost more; sheets of includes are coarse anyway. */
-static const double default_tolerance = 0.005, default_rough = 0.05;
+/* Of the largest intensity. Round bodies shine unlike from each position, so that finer directions
+ * cost more; sheets of includes need narrow windows, and are coarser anyway. */
+static const double default_tolerance = 0.005, narrow_tolerance = 0.025, rough_tolerance = 0.05;
 
 static bool is_ies(const char *head, size_t size, const char *path) {
   (void)path;
@@ -124,11 +124,12 @@ static void tell(const struct import_wish *wish, const struct photometry *lamp,
            "RMS of the far field against the file's intensities; 95 %% of 4000 lit directions are "
            "within %.2g %%, all within %.2g %% of the largest",
            100 * grid->error.most95, 100 * grid->error.most);
+  double worth_telling = wish->tolerance > 0 ? tolerance : rough_tolerance;
   story->error = grid->error.rms;
   story->sample_error = NAN;
   story->flux_error = fabs(grid->error.factor - 1);
   story->missed = story->flux_error; /* beyond the windows, made up for by all cells */
-  if (grid->error.most > tolerance)
+  if (grid->error.most > worth_telling || grid->error.most95 > 0.4 * worth_telling)
     warnings_add(
         wish->notes,
         "the far field is off by up to %.2g %% of the largest intensity in 95 %% of the "
@@ -141,7 +142,8 @@ static double tolerance_for(const struct import_wish *wish, const struct photome
   struct photometry_body body;
   photometry_body(lamp, false, &body);
   if (wish->tolerance > 0) return wish->tolerance;
-  return wish->narrow || !photometry_is_even(&body) ? default_rough : default_tolerance;
+  if (!photometry_is_even(&body)) return rough_tolerance;
+  return wish->narrow ? narrow_tolerance : default_tolerance;
 }
 
 static enum result make_slabs(const struct import_wish *wish, struct photometry *lamp,
@@ -151,7 +153,8 @@ static enum result make_slabs(const struct import_wish *wish, struct photometry 
   double tolerance = tolerance_for(wish, lamp);
   double white[3] = {1, 1, 1};
   if (wish->kelvin > 0) kelvin_colour(wish->kelvin, white);
-  enum result result = photometry_pages(lamp, tolerance, wish->narrow, &pages, error);
+  enum result result = photometry_pages(lamp, wish->narrow ? rough_tolerance : tolerance,
+                                        wish->narrow, &pages, error);
   if (result == RESULT_OK)
     result = photometry_grid(lamp, &pages, wish->st, tolerance, &grid, error);
   if (result == RESULT_OK)
