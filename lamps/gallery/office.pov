@@ -17,7 +17,7 @@ Gallery_Radiosity(0.5)
   #for (J, -1, 1, 2)
     #local Place = transform { rotate 90*y translate <200*I, Ceiling - 1, 110*J> }
     object { Fluorescent_Canned(1, Gain) transform Place }
-    object { Fluorescent_Canned_Face(1, 1.6*Gain, vinv_transform(Eye, Place)) transform Place }
+    object { Fluorescent_Canned_Face(1, 0.5*Gain, vinv_transform(Eye, Place)) transform Place }
     // A steel frame, and behind the face darkness.
     union {
       difference {
