@@ -193,4 +193,5 @@ farm_end() {
   local pid
   [ ! -e "$FARM/slurmctld.pid" ] || scancel -u "$(id -un)" 2>/dev/null || true
   for pid in $(daemons); do kill "$pid" 2>/dev/null || true; done
+  rm -rf "$FARM"
 }

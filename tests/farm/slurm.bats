@@ -77,7 +77,7 @@ kills() {
 @test "make lamps CANNED_LAUNCH=slurm" {
   mkdir -p shelf lamps
   cp cheap.pov part.inc lamps
-  make --no-print-directory -C "$CANNED_INCLUDE/.." SETUP=no lamps SHELF="$PWD/shelf" SHELF_LAMPS="$PWD/lamps/cheap.pov" \
+  env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL -u MAKEOVERRIDES make --no-print-directory -C "$CANNED_INCLUDE/.." SETUP=no lamps SHELF="$PWD/shelf" SHELF_LAMPS="$PWD/lamps/cheap.pov" \
     SHELF_FLAGS='--uv 2 --st 4 --rays 4' CANNED_LAUNCH=slurm CANNED_LAUNCH_FLAGS='-n 2'
   grep -q 'cheap' shelf/index.html
   [ -s shelf/cheap.tif ] && [ ! -e shelf/cheap.error ]
