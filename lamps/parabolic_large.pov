@@ -2,7 +2,8 @@
 // Lightsources": the same bulb, focal length and blockers' height; the bowl is cut at
 // another depth, and the grid cuts light off at slope 1.75. Centimetres.
 // It calls for what that lamp does: interreflection.
-// Bake: bakeslab bake parabolic_large.pov -o parabolic_large.tif --uv 16x16 --st 64x64
+// Finer directions than those of that lamp leave no grid on things near by.
+// Bake: bakeslab bake parabolic_large.pov -o parabolic_large.tif --uv 16x16 --st 96x96
 // Use: object { Parabolic_Large_Canned(1, 1) }
 // Licence: CC0
 #version 3.7;
