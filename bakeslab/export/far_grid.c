@@ -15,7 +15,8 @@ enum {
   PROBES = 20000,         /* of a page */
   MOST_CANDELA = 1 << 18, /* of a table */
 };
-static const double first_step[2] = {15, 5}, least_step[2] = {15.0 / 1024, 5.0 / 1024}; /* degrees */
+static const double first_step[2] = {15, 5},
+                    least_step[2] = {15.0 / 1024, 5.0 / 1024}; /* degrees */
 static const double blamed_part = 0.01; /* of an interval's directions, that may be off */
 /* Beyond each end of a window, degrees: every other direction is drawn from as far as a first step
  * may carry its light. */
