@@ -304,15 +304,17 @@ static bool add_cluster(const struct hard_case *lit, int n, struct hard_sum *sum
 
 /* ---- The far field, as its image has it ---- */
 
+/* The image's columns lie on longitudes 0 to 2 pi, its rows on latitudes from the upper pole to the
+ * lower one. */
 static void image_at(const struct picture *picture, const double direction[3], double rgb[3]) {
   double turns = atan2(direction[2], direction[0]) / (2 * M_PI);
-  double x = (turns - floor(turns)) * picture->width - 0.5;
-  double y = (0.5 - asin(fmin(fmax(direction[1], -1), 1)) / M_PI) * picture->height - 0.5;
-  int column = (int)floor(x), row = (int)floor(y);
+  double x = (turns - floor(turns)) * (picture->width - 1);
+  double y = (0.5 - asin(fmin(fmax(direction[1], -1), 1)) / M_PI) * (picture->height - 1);
+  int column = (int)fmin(floor(x), picture->width - 2);
+  int row = (int)fmin(floor(y), picture->height - 2);
   rgb[0] = rgb[1] = rgb[2] = 0;
   for (int k = 0; k < 4; ++k) {
-    int i = (column + (k & 1) + picture->width) % picture->width, j = row + (k >> 1);
-    j = j < 0 ? 0 : j >= picture->height ? picture->height - 1 : j;
+    int i = column + (k & 1), j = row + (k >> 1);
     double weight = (k & 1 ? x - column : 1 - x + column) * (k >> 1 ? y - row : 1 - y + row);
     for (int c = 0; c < 3; ++c)
       rgb[c] +=
@@ -340,7 +342,7 @@ double hard_radius(const struct hard_lamp *lamp, double width) {
 }
 
 static void add_point(const struct hard_case *lit, int n, const struct picture *picture,
-                      const double numbers[16], struct hard_sum *sum) {
+                      const double numbers[14], struct hard_sum *sum) {
   const struct hard_lamp *lamp = &lit->lamps[n];
   double axes[3][3], center[3], width = numbers[12];
   for (int k = 0; k < 3; ++k) turn(lamp, numbers + 3 * k, axes[k]);
@@ -359,18 +361,18 @@ static void add_point(const struct hard_case *lit, int n, const struct picture *
       if (m != n && meets_sphere(&lit->lamps[m], numbers, radius, center, at))
         sum->doubt[k] = INFINITY;
     for (int c = 0; c < 3; ++c)
-      sum->rgb[k][c] += lamp->gain[c] * rgb[c] * numbers[13 + c] * facing / M_PI *
-                        (lamp->scale / r) * (lamp->scale / r);
+      sum->rgb[k][c] += lamp->gain[c] * rgb[c] * numbers[13] * facing / M_PI * (lamp->scale / r) *
+                        (lamp->scale / r);
   }
 }
 
 static bool add_points(const struct hard_case *lit, struct hard_sum *sum) {
   struct picture picture;
   struct error error;
-  double numbers[16]; /* frame, centre, width, intensity */
+  double numbers[14]; /* frame, centre, width, what the image holds as 1 */
   if (!hard_numbers("Test_Lamp_Frame = array[4] {", numbers, 12) ||
       !hard_numbers("Test_Lamp_Width =", numbers + 12, 1) ||
-      !hard_numbers("Test_Lamp_Intensity =", numbers + 13, 3))
+      !hard_numbers("Test_Lamp_Peaks = array[1] {", numbers + 13, 1))
     return false;
   if (slab_exr_read(chain_path("lamp.exr"), &picture, &error) != RESULT_OK) return false;
   for (int n = 0; n < lit->lamp_count; ++n) add_point(lit, n, &picture, numbers, sum);
