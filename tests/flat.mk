@@ -40,7 +40,7 @@ TEST_ENV = BAKESLAB=$(abspath $(BAKE_BIN)) RENDERSLAB=$(abspath $(RENDER_BIN)) C
 # Programs find bakeslab-image relative to themselves, those of tests too.
 $(B)/tests/lib: | $(IMAGE)
 	@mkdir -p $(@D) && ln -sfn ../lib $@
-$(TEST_LOGS): | $(B)/tests/lib
+$(TEST_LOGS): | $(B)/tests/lib $(FARM)
 
 test: $(TEST_LOGS) ## run the tests
 	$(if $(TEST_CHOSEN),,$(error T=$(T) names no test; there are: $(TEST_NAMES)))
