@@ -9,6 +9,9 @@
 /* Parts of the light that are left out at each end of a window or rectangle, and with a face. */
 static const double negligible_window = 1.0 / 800, negligible_rectangle = 1.0 / 400,
                     negligible_face = 1e-4;
+/* Cells of a window whose ranges are both this much longer are twice as large, which is dearer than
+ * the little light beyond; a rectangle is to fit. */
+static const double much_longer_window = 1.4, much_longer_rectangle = 1.1;
 /* Boxes are flat where they are this much thinner than long; a line or a point gets a thickness. */
 static const double flat = 1e-6, thickness = 1e-3;
 static const double point_size = 1e-3; /* metres */
@@ -145,7 +148,8 @@ static enum result fit_rectangle(const struct ray_look *look, const double norma
       if (isfinite(at)) values[count++] = (struct ray_weighed){at, ray_luminance(ray->flux)};
     }
     range[axis][0] = range[axis][1] = 0;
-    if (count > 0) ray_range(values, count, negligible_rectangle, range[axis]);
+    if (count > 0)
+      ray_range(values, count, negligible_rectangle, much_longer_rectangle, range[axis]);
   }
   free(values);
   double sizes[2] = {range[0][1] - range[0][0], range[1][1] - range[1][0]};
@@ -199,7 +203,7 @@ enum result ray_lay_windows(const struct ray_look *look, struct ray_pages *pages
             "page %d: no ray reaches it: check its --center, --u, --v and --normal", n + 1);
         break;
       }
-      ray_range(values, count, negligible_window, window);
+      ray_range(values, count, negligible_window, much_longer_window, window);
       window[0] = fmin(fmax(window[0], -reach), reach);
       window[1] = fmin(fmax(window[1], -reach), reach);
       double lacks = RAY_LAY_LEAST_WINDOW - (window[1] - window[0]);

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A range this much longer than that of most of the light is not taken whole. */
-static const double much_longer = 1.1;
 static const double margin = 0.005; /* of the range, at each end */
 
 static int ascending(const void *left, const void *right) {
@@ -12,7 +10,8 @@ static int ascending(const void *left, const void *right) {
   return (a->value > b->value) - (a->value < b->value);
 }
 
-void ray_range(struct ray_weighed *values, size_t count, double negligible, double range[2]) {
+void ray_range(struct ray_weighed *values, size_t count, double negligible, double much_longer,
+               double range[2]) {
   double all = 0, below = 0, above = 0;
   size_t low = 0, high = count - 1;
   qsort(values, count, sizeof *values, ascending);

@@ -8,10 +8,11 @@ struct ray_weighed {
   double value, flux;
 };
 
-/* The range of all values, and a little more; or, where that is much shorter, of the values without
- * the part `negligible` of the flux at each end: a few rays graze an aperture, or come from far
- * beside the lamp. Even about 0 where it is nearly so. There is at least one value; they are
- * sorted. */
-void ray_range(struct ray_weighed *values, size_t count, double negligible, double range[2]);
+/* The range of all values, and a little more; or, where that is `much_longer` times as long, of the
+ * values without the part `negligible` of the flux at each end: a few rays graze an aperture, or
+ * come from far beside the lamp. Even about 0 where it is nearly so. There is at least one value;
+ * they are sorted. */
+void ray_range(struct ray_weighed *values, size_t count, double negligible, double much_longer,
+               double range[2]);
 
 #endif
