@@ -1,6 +1,7 @@
 #!/usr/bin/env bats
 # canned-slurm and canned-parallel as a user meets them, with a stand-in for sbatch; `make farm-test`
 # runs them with Slurm and ssh.
+# shellcheck disable=SC2154 # run sets stderr
 load bake
 
 setup() {
@@ -25,7 +26,6 @@ END
 @test "an array of tasks bakes, a second job looks whether it did; what they say is said once" {
   stand_in
   run -0 --separate-stderr canned-slurm -n 3 -c 3 -s --time=9 -- "$BAKESLAB" bake flat.pov -o x.tif --uv 2 --st 4 --rays 4
-  echo "$stderr"
   [ -z "$output" ]
   [ "$(grep -c 'x.tif: 1 batches' <<<"$stderr")" -eq 1 ]
   [[ $(sed -n 1p asked) == *"--array=1-3 --requeue --cpus-per-task=3 --signal=B:USR1@30 "*"--output=x.tif.slurm/%a.log --time=9" ]]
@@ -33,7 +33,6 @@ END
   [ ! -e x.tif.slurm ]
   # A lamp that cannot be baked: each task says so.
   run -1 --separate-stderr canned-slurm -n 2 -- "$BAKESLAB" bake none.pov -o z.tif
-  echo "$stderr"
   [ "$(grep -c 'none.pov' <<<"$stderr")" -eq 1 ]
   [[ $stderr == *"canned-slurm: z.tif: was not written; what the workers said is in z.tif.slurm" ]]
 }
