@@ -57,7 +57,9 @@ static enum result find_target(struct output *output, const char *path, struct e
 static enum result begin_file(struct output *output, const char *path, struct error *error) {
   enum result result = find_target(output, path, error);
   if (result != RESULT_OK) return result;
-  output->temporary = temporary_file(output->target, &output->fd);
+  int fd = -1;
+  output->temporary = temporary_file(output->target, &fd);
+  output->fd = fd;
   if (output->temporary) return RESULT_OK;
   if (errno == ENOMEM) return result_at(result_no_memory(error), error, "%s", path);
   return result_fail(error, RESULT_IO, "%s: cannot be written: %s", path, strerror(errno));

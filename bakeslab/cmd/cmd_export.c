@@ -112,7 +112,8 @@ static void check_arguments(struct arguments *arguments, struct argp_state *stat
   if (!arguments->kind)
     argp_error(state, "%s: its ending names no kind; give one of %s with --as", arguments->output,
                EXPORT_KINDS);
-  if (arguments->kind) check_kind(arguments, state);
+  if (!arguments->kind) return;
+  check_kind(arguments, state);
   if (!arguments->wish.rays) arguments->wish.rays = 100000;
   if (arguments->wish.seed < 0) arguments->wish.seed = 1;
   bool far = !strcmp(arguments->kind->name, "ies") || !strcmp(arguments->kind->name, "ldt");

@@ -227,7 +227,7 @@ static bool open_farm(struct farm *farm, const struct farm_lamp *lamps) {
   farm->lamps = calloc((size_t)farm->lamp_count, sizeof *farm->lamps);
   farm->workers = calloc((size_t)farm->size->count, sizeof *farm->workers);
   farm->queue = calloc((size_t)farm->size->count, sizeof *farm->queue);
-  if (!farm->lamps || !farm->workers || !farm->queue) return false;
+  if (farm->lamp_count < 1 || !farm->lamps || !farm->workers || !farm->queue) return false;
   for (int n = 0; n < farm->lamp_count; ++n) {
     struct lamp_state *lamp = &farm->lamps[n];
     *lamp = (struct lamp_state){.lamp = &lamps[n], .done = INFINITY, .holder = -1};
@@ -249,7 +249,7 @@ static bool open_farm(struct farm *farm, const struct farm_lamp *lamps) {
         (struct worker){.lamp = n % farm->lamp_count,
                         .speed = 1 + size->unevenness * (2 * chance((uint64_t)n, 2) - 1),
                         .death = dies ? size->until * chance((uint64_t)n, 4) : INFINITY,
-                        .read = malloc(most * sizeof *farm->workers[n].read)};
+                        .read = calloc(most, sizeof *farm->workers[n].read)};
     if (!farm->workers[n].read) return false;
     ++farm->lamps[farm->workers[n].lamp].at_work;
     farm->queue[farm->queued++] = n; /* all at 0 */

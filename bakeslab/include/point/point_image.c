@@ -146,7 +146,7 @@ enum result point_paint(const struct point_far *pages, int count, struct point *
   point->columns = table ? table->columns : width + 1;
   point->rows = table ? table->rows : width / 2 + 1;
   size_t values = 3 * (size_t)point->columns * (size_t)point->rows;
-  double *image = malloc(values * sizeof *image);
+  double *image = calloc(values, sizeof *image);
   picture->rgb = calloc((size_t)point->count * values, sizeof *picture->rgb);
   picture->width = point->columns;
   picture->height = point->count * point->rows;
