@@ -12,17 +12,16 @@ doc=$root/usr/share/doc/canned
 whom='The Canned light sources maintainers <maintainers@canned.invalid>'
 
 # Programs without what debuggers read.
-loaded=$(find "$root/usr/bin" "$root/usr/lib" -type f ! -name '*.sh' ! -name 'canned-*')
-for file in $loaded; do strip --strip-unneeded -R .comment -R .note.gnu.build-id "$file"; done
+root=$(realpath "$root")
+programs() { find "$root/usr/bin" "$root/usr/lib" -type f ! -name '*.sh' ! -name 'canned-*' "$@"; }
+programs -exec strip --strip-unneeded -R .comment -R .note.gnu.build-id {} +
 libraries=$(
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
   mkdir "$scratch/debian"
   printf 'Source: canned\n\nPackage: canned\nArchitecture: any\n' >"$scratch/debian/control"
-  paths=$(for file in $loaded; do realpath "$file"; done)
   cd "$scratch"
-  # shellcheck disable=SC2086
-  dpkg-shlibdeps -O $paths >found 2>log || { cat log >&2 && exit 1; }
+  programs -exec dpkg-shlibdeps -O {} + >found 2>log || { cat log >&2 && exit 1; }
   sed -n 's/^shlibs:Depends=//p' found
 )
 

@@ -2,7 +2,7 @@
 # that sets up by itself is made by a second make, which begins when set-up has ended. The first
 # one reads no other rule: nothing is generated, compiled or asked of pkg-config before.
 SETUP ?= yes
-SETS_UP := setup demo lamps figures tradeoff peers engines test farm-test bare stability bench lint sanitize fuzz fuzz_all man install deb
+SETS_UP := setup demo lamps gallery figures tradeoff simulate peers engines test farm-test bare stability bench lint sanitize fuzz fuzz_all man install deb
 
 # Where there is no Debian, pkg-config is asked for these.
 PACKAGES_USED := libtiff-4 OpenEXR jansson libxxhash
@@ -31,10 +31,10 @@ PACKAGES_lint := $(PACKAGES_test) git g++ clang-format clang-tidy cppcheck shell
 goals_need = $(if $(filter $(1),$(MAKECMDGOALS)),$(2))
 PACKAGES := $(sort $(if $(filter-out bare,$(MAKECMDGOALS)),$(PACKAGES_build)) \
   $(call goals_need,demo bench figures tradeoff peers,$(PACKAGES_demo)) \
-  $(call goals_need,tradeoff peers,$(PACKAGES_plot)) \
+  $(call goals_need,tradeoff peers simulate,$(PACKAGES_plot)) \
   $(call goals_need,peers,$(PACKAGES_peers)) \
   $(call goals_need,engines,$(PACKAGES_engines)) \
-  $(call goals_need,lamps,$(PACKAGES_lamps)) \
+  $(call goals_need,lamps gallery,$(PACKAGES_lamps)) \
   $(call goals_need,setup test engines stability sanitize,$(PACKAGES_test)) \
   $(call goals_need,setup bare,$(PACKAGES_bare)) \
   $(call goals_need,fuzz fuzz_all sanitize,$(PACKAGES_fuzz)) \

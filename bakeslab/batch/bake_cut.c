@@ -1,14 +1,14 @@
 /* bake_cut.c - how a round is cut into batches, whoever renders them; see bake_plan.h.
  *
- * Each batch takes a part of what is left, within bounds,
- * so that they get smaller and many processes end together (guided self-scheduling:
- * Polychronopoulos and Kuck, IEEE Transactions on Computers C-36, 1987). The least are about alike,
- * and their number is a multiple of BATCH_EVEN, for a few processes to end together; less than two
- * of them, but more than HALVED, is cut in two.
+ * Each batch takes a part of what is left, within bounds, so that they get smaller and many
+ * processes end together (guided self-scheduling: Polychronopoulos and Kuck, IEEE Transactions on
+ * Computers C-36, 1987). The least are about alike, and their number is a multiple of BATCH_EVEN,
+ * for a few processes to end together; less than two of them, but more than HALVED, is cut in two.
  *
  * A POV-Ray process costs 0.03 CPU seconds whatever it renders, which is some 1 % of the least
- * batch of a usual lamp. With interreflection it costs as much as a million rays, which it takes to
- * sample that anew: then the least are as large as the others' largest.
+ * batch of a usual lamp. With interreflection or photons (dear) it costs as much as a million rays,
+ * which it takes to sample those anew: then the least are as large as the others' largest, but
+ * that a round of two of them is cut in four all the same.
  *
  * Costs are in rays; a camera costs some too, since POV-Ray finds a mesh camera's face by a linear
  * search through the meshes. */

@@ -1,6 +1,6 @@
 #include "batch/bake_order.h"
 
-/* The same for a process at all times. */
+/* A number from the process's name, so that processes begin at different places. */
 static size_t own_number(const struct bake_store *store) {
   size_t hash = 0;
   for (const char *id = store->worker->name.id; *id; ++id) hash = 31 * hash + (unsigned char)*id;

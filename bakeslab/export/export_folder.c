@@ -13,7 +13,7 @@
 #include "base/temporary.h"
 
 const char export_folder_mark[] = "provenance.json";
-static const char unfinished[] = ".unfinished";
+static const char unfinished[] = ".unfinished-export";
 
 static bool is_empty(const char *path) {
   DIR *directory = opendir(path);
@@ -63,7 +63,7 @@ static void remove_left(const char *target) {
   for (const struct dirent *entry; directory && (entry = readdir(directory));) {
     const char *after = entry->d_name + length;
     if (strncmp(entry->d_name, name, length) != 0 || strncmp(after, unfinished, mark) != 0 ||
-        strlen(after) != mark + strlen(".XXXXXX"))
+        after[mark] != '.' || strlen(after) != mark + strlen(".XXXXXX"))
       continue;
     int lock =
         openat(dirfd(directory), entry->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -88,7 +88,10 @@ static enum result make_temporary(struct export_folder *folder, struct error *er
     return result_fail(error, RESULT_IO, "%s: cannot make this folder: %s", folder->target,
                        strerror(why));
   folder->lock = open(folder->temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder->lock >= 0) flock(folder->lock, LOCK_SH); /* a file system without locks is fine */
+  if (folder->lock < 0)
+    return result_fail(error, RESULT_IO, "%s: cannot be opened: %s", folder->temporary,
+                       strerror(errno));
+  flock(folder->lock, LOCK_SH); /* a file system without locks is fine */
   return RESULT_OK;
 }
 

@@ -63,12 +63,17 @@ parallel --version 2>/dev/null | grep -q '^GNU parallel' || fail 1 'the parallel
 count=$(grep -cvE '^[[:space:]]*(#|$)' "$machines" || true)
 [ "$count" -gt 0 ] || fail 1 "$machines: names no machine"
 [ "$workers" -gt 0 ] || workers=$count
+[ "$copy" = no ] || [ "$workers" -gt 1 ] || workers=2 # one shard is no shard
 
 # What is done is known of this bake only.
 kept=$slab.parallel
 mkdir -p -- "$kept" 2>/dev/null || fail 1 "$kept: this folder cannot be made"
 told=$(printf '%q ' "$PWD" "$workers" "$copy" "${bake[@]}")
-if [ "$(cat -- "$kept/bake" 2>/dev/null)" != "$told" ] || [ "${bake[2]-}" -nt "$kept/bake" ]; then
+stale=no
+for file in "${bake[@]:2}"; do
+  if [ -f "$file" ] && [ "$file" != "$slab" ] && [ "$file" -nt "$kept/bake" ]; then stale=yes; fi
+done
+if [ "$(cat -- "$kept/bake" 2>/dev/null)" != "$told" ] || [ "$stale" = yes ]; then
   rm -rf -- "${kept:?}"/*
   printf '%s' "$told" >"$kept/bake"
 fi
@@ -87,7 +92,7 @@ together() { each joblog --workdir "$PWD" ": {}; $(worker '')" >&2; }
 # Files of the working folder that the script reads, by a rule for make, with make's marks undone.
 # Other files are those that programs bring along.
 files_read() {
-  sed -n '2,/^$/ { s/^  //; s/ \\$//; s/\\\([ #\\]\)/\1/g; s/\$\$/$/g; /^\//d; /./p }' "$1"
+  sed -n '2,/^$/ { s/^  //; s/ \\$//; s/\$(if ,,=)/=/g; s/\\\([] #:*?[\\]\)/\1/g; s/\$\$/$/g; /^\//d; /./p }' "$1"
 }
 
 # The bake's words but -o and --depend, with their values.
@@ -106,7 +111,8 @@ other_words() {
 # wave NUMBER: each worker bakes its part of a round, as far as it is known, in a folder of its
 # own; all that is whole of what comes back goes into SLAB.partial.
 wave() {
-  local n here=$kept/{}/${slab##*/} file options=(--workdir ... --cleanup)
+  local n here=$kept/{}/${slab##*/} file quoted options=(--workdir ... --cleanup)
+  quoted=$(printf '%q/{}/%q' "$kept" "${slab##*/}")
   for n in $(seq "$workers"); do
     mkdir -p -- "$kept/$n/${slab##*/}.partial"
     [ ! -d "$slab.partial" ] || cp -r -- "$slab.partial" "$kept/$n/"
@@ -114,17 +120,22 @@ wave() {
   while IFS= read -r file; do options+=(--transferfile "$file"); done < <(files_read "$kept/depend")
   options+=(--transferfile "$here.partial" --return "$here.partial")
   each "joblog.$1" "${options[@]}" "$(printf '%q ' "${bake[0]}" bake "${words[@]}") -q \
-    -o $here --shard {}/$workers --round next" >"$kept/said"
+    -o $quoted --shard {}/$workers --round next" >"$kept/said"
   "${bake[0]}" gather "$kept"/*/"${slab##*/}.partial" -o "$slab.partial" -q || true
+  rm -f -- "$kept/joblog.$1" # what is missing then is for the next wave
 }
 
 batches() { find "$slab.partial" -mindepth 1 -maxdepth 1 -name '????????????????????????????????' | wc -l; }
 
 apart() {
-  local number=0 had=-1 left=all
+  local number=0 had=-1 left=all file
   [[ ! $slab =~ ^/|(^|/)\.\./ ]] || fail 1 "$slab: --copy: is not below the working folder"
   command -v rsync >/dev/null || fail 1 '--copy: rsync is not here'
   other_words
+  for file in "${words[@]}"; do
+    [ ! -f "$file" ] || [[ ! $file =~ ^/|(^|/)\.\./ ]] || fail 1 "$file: --copy: is not below the working folder"
+  done
+  rm -f -- "$kept"/joblog.*
   # Small bakes that decide what the bake is to be: once, for all.
   "${bake[@]}" --dry-run --depend "$kept/depend" -q 2>"$kept/said" || { cat "$kept/said" >&2 && return; }
   while [ -n "$left" ] && mkdir -p -- "$slab.partial" && [ "$(batches)" -gt "$had" ]; do
@@ -134,7 +145,6 @@ apart() {
   done
   if [ -n "$left" ]; then
     cat "$kept/said" >&2
-    rm -f -- "$kept/joblog.$number"
     return
   fi
   "${bake[@]}" || true

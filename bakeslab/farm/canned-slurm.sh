@@ -4,8 +4,8 @@
 # 1. The array's tasks are workers: the same bake, on the folder that all nodes see. A task that
 #    is killed, preempted or whose node fails begins again (--requeue), and so does one whose time
 #    is up: half a minute before, it stops, and puts itself into the queue again.
-# 2. A second job, which begins when all of these have ended, collects what they said, and fails
-#    unless the slab was written. Others may depend on it.
+# 2. A second job, which begins when all of these have ended, fails unless the slab was written.
+#    Others may depend on it.
 set -euo pipefail
 program=canned-slurm
 # shellcheck source=bakeslab/farm/farm.sh
@@ -28,7 +28,7 @@ Bakes a lamp by an array job of Slurm, and waits for the slab.
                              depend on it (afterok)
   -h, --help, --version
 
-All nodes must see the working folder, as over NFS. Workers share the bake's batches by the folder SLAB.partial: what one that died had in hand is taken over, and the slab is the same, bit for bit, for any number of them. Tasks that are killed with their node, preempted, or run out of time are put into the queue again. What they say is kept in SLAB.slurm until the slab is written; `bakeslab status SLAB.partial` tells how far they are. When this program is interrupted it cancels its jobs; the same command goes on from there.
+All nodes must see the working folder, as over NFS. Workers share the bake's batches by the folder SLAB.partial: what one that died had in hand is taken over, and the slab is the same, bit for bit, for any number of them. Tasks that are killed with their node, preempted, or run out of time are put into the queue again. What they say is kept in SLAB.slurm until this program has seen the slab; `bakeslab status SLAB.partial` tells how far they are. When this program is interrupted it cancels its jobs; the same command goes on from there.
 
 Examples:
   canned-slurm --workers 64 -- bakeslab bake lamp.pov -o lamp.tif
@@ -86,6 +86,16 @@ closing() {
   printf '[ -e %q ] && [ "$(stat -c "%%s %%.9Y" -- %q)" != %q ]\n' "$slab" "$slab" "$before"
 }
 
+# Ctrl-C ends the wait at once, since a shell waits for what is in the background only.
+array=
+# shellcheck disable=SC2317
+cancel() {
+  trap - INT TERM HUP EXIT
+  [ -z "$array" ] || scancel "$array" 2>/dev/null || true
+  exit 1
+}
+trap cancel INT TERM HUP
+
 # A number of a log of an array is the task's.
 name=bake-$(basename -- "$slab")
 array=$(task | submit --array="1-$workers" --requeue --cpus-per-task="$cpus" --signal=B:USR1@30 \
@@ -96,20 +106,15 @@ array=$(task | submit --array="1-$workers" --requeue --cpus-per-task="$cpus" --s
 closing_options=(--dependency="afterany:$array" --job-name="$name-end" --output=/dev/null
   ${options[@]+"${options[@]}"})
 if [ "$wait" = no ]; then
-  closing | submit "${closing_options[@]}"
+  closing | submit "${closing_options[@]}" || cancel
   exit
 fi
-
-# Ctrl-C ends the wait at once, since a shell waits for what is in the background only.
-# shellcheck disable=SC2317
-cancel() {
-  trap - INT TERM HUP EXIT
-  scancel "$array" 2>/dev/null || true
-  exit 1
-}
-trap cancel INT TERM HUP
-closing | sbatch --wait --parsable "${closing_options[@]}" >/dev/null 2>&1 &
+closing | sbatch --wait --parsable "${closing_options[@]}" >"$logs/closing" 2>&1 &
 wait "$!" || true
+if ! grep -q '^[0-9]' "$logs/closing"; then
+  echo "$program: sbatch: $(grep -m 1 . "$logs/closing" | sed 's/^sbatch: *\(error: \)*//')" >&2
+  cancel
+fi
 cat -- "$logs"/*.log 2>/dev/null | said_once >&2
 is_written || fail 1 "$slab: was not written; what the workers said is in $logs"
 rm -rf -- "$logs"

@@ -43,7 +43,7 @@ whole_number() { # OPTION VALUE MOST
   fi
 }
 
-# worker JOBS: a shell's text, of any shell: the bake with so many POV-Ray processes (a word of the
+# worker JOBS: a text for bash or, if no name is odd, any shell: the bake with so many POV-Ray processes (a word of the
 # shell, or nothing), unless others have written the slab by then. Listing the folder makes NFS
 # look at it anew.
 worker() {

@@ -71,7 +71,7 @@ end_export() {
   local number entries=$'begun\nlamp.tif\nslow'
   for number in 1 2 15; do
     start_export
-    compgen -G 'out.unfinished.??????/lamp.json'
+    compgen -G 'out.unfinished-export.??????/lamp.json'
     end_export $number
     [ "$(ls)" = "$entries" ]
   done
@@ -82,15 +82,15 @@ end_export() {
   [ "$(ls out)" = $'README.md\ncanned_lights.py\nexample.py\nold.exr\nold.json\nprovenance.json' ]
   rm -r out
   start_export
-  mkdir out.unfinished.mine other.unfinished.abcdef
+  mkdir out.unfinished-export.mine other.unfinished-export.abcdef
   end_export 9
   start_export
   # Of the three folders of that name, those that are nobody's go; one in use stays.
-  [ "$(find . -name 'out.unfinished.??????' | wc -l)" -eq 1 ]
+  [ "$(find . -name 'out.unfinished-export.??????' | wc -l)" -eq 1 ]
   export_it lamp.tif -o out --as cycles -q
-  [ "$(find . -name 'out.unfinished.??????' | wc -l)" -eq 1 ]
+  [ "$(find . -name 'out.unfinished-export.??????' | wc -l)" -eq 1 ]
   end_export 2
-  [ "$(ls)" = $'begun\nlamp.tif\nother.unfinished.abcdef\nout\nout.unfinished.mine\nslow' ]
+  [ "$(ls)" = $'begun\nlamp.tif\nother.unfinished-export.abcdef\nout\nout.unfinished-export.mine\nslow' ]
 }
 
 @test "a lamp that Radiance cannot hold, and a name that is none" {

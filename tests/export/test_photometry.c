@@ -89,7 +89,6 @@ static void read_ldt(FILE *in, struct table *table) {
     else
       at[k] = number(in);
   }
-  bool rotated = at[3] == 1;
   table->planes = (int)at[4] + 1;
   table->angles = (int)at[6];
   assert_true(table->angles < MOST && table->planes < MOST);
@@ -101,7 +100,7 @@ static void read_ldt(FILE *in, struct table *table) {
   for (int k = 0; k + 1 < table->planes; ++k) table->c[k] = number(in);
   table->c[table->planes - 1] = 360;
   for (int k = 0; k < table->angles; ++k) table->gamma[k] = number(in);
-  read_candela(table, rotated ? 1 : table->planes - 1, at[29] / 1000, in);
+  read_candela(table, table->planes - 1, at[29] / 1000, in);
 }
 
 static int cell(const double *angles, int count, double at) {

@@ -18,7 +18,9 @@ engine_python() {
   fi
   "$venv/bin/python" -c "import $module" 2>/dev/null && return
   timeout "${ENGINE_SECONDS:-900}" "$venv/bin/python" -m pip install -q --retries 1 --timeout 15 "$@" >"$venv-$module.log" 2>&1 &&
-    "$venv/bin/python" -c "import $module" 2>>"$venv-$module.log"
+    "$venv/bin/python" -c "import $module" 2>>"$venv-$module.log" && return
+  rm -rf -- "$venv"/lib/python3*/site-packages/"$module" # half of it is none
+  return 1
 }
 
 # Mitsuba's fast variants compile by LLVM, newer than the default of Debian 12; engine_mitsuba KIND

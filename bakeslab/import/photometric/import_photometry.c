@@ -121,8 +121,8 @@ static void tell(const struct import_wish *wish, const struct photometry *lamp,
                            "the opening is wide may be lit a tenth too much or too little"
                          : "");
   snprintf(story->error_is, sizeof story->error_is,
-           "RMS of the far field against the file's intensities; 95 %% of 4000 lit directions are "
-           "within %.2g %%, all within %.2g %% of the largest",
+           "RMS of the far field against the file's intensities; 95 %% of the lit directions that "
+           "were tried are within %.2g %%, all within %.2g %% of the largest",
            100 * grid->error.most95, 100 * grid->error.most);
   double worth_telling = wish->tolerance > 0 ? tolerance : rough_tolerance;
   story->error = grid->error.rms;

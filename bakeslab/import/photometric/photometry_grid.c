@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-
 #include <string.h>
 
 #include "slab/slab.h"
@@ -29,7 +28,8 @@ static const double most_factor = 0.05;
 /* Cells that are not cheap must help: directions beyond the tolerance are more than a part of all,
  * or the largest error is near to it and still falls. */
 static const double most_beyond = 0.005, near_enough = 4, still_better = 0.9;
-/* Cells are fine where the far field errs by so much of the tolerance: windows take their part. */
+/* Cells are fine where the far field errs by so much of the tolerance: the rest is for light cut
+ * off at windows. */
 static const double cells_part = 0.4;
 
 void photometry_grid_free(struct photometry_grid *grid) {

@@ -73,6 +73,8 @@ static struct brightness find_brightness(const struct include_lamp *lamp) {
                              watts ? ", if a watt of its light is 179 lm" : ""};
 }
 
+static const char *const channels[3] = {"red", "green", "blue"};
+
 /* A lamp that is written in metres comes out too small in most scenes. */
 static const char *tell_centimetres(const struct slab *frame, char text[96]) {
   double metres = frame->metres_per_unit;
@@ -83,14 +85,16 @@ static const char *tell_centimetres(const struct slab *frame, char text[96]) {
   return text;
 }
 
+static void put_stamp(const struct include_lamp *lamp, const char *housing, char stamp[17]) {
+  uint64_t hash = housing ? include_hash(lamp->stamp, housing, strlen(housing)) : lamp->stamp;
+  snprintf(stamp, 17, "%016" PRIx64, hash);
+}
+
 void include_print(const char *template, const struct include_text *text,
                    const struct include_lamp *lamp, const struct include_value *values, FILE *out) {
-  static const char *const channels[3] = {"red", "green", "blue"};
   const char *housing = text->housing;
-  uint64_t hash = housing ? include_hash(lamp->stamp, housing, strlen(housing)) : lamp->stamp;
-  const char *left_out = text->housing_left_out ? " that could be used." : ".";
   char stamp[17], centimetres[96];
-  snprintf(stamp, sizeof stamp, "%016" PRIx64, hash);
+  put_stamp(lamp, housing, stamp);
   const struct channel_rows gains = {lamp, "\n", gain_row, text->name},
                             cases = {lamp, "\n", case_row, text->name},
                             sets = {lamp, "\n", set_row, text->name},
@@ -123,7 +127,9 @@ void include_print(const char *template, const struct include_text *text,
       {"chosen", .text = text->chosen, .write = sdl_comment},
       {"own_error", .text = text->own_error},
       {"housing", .text = housing},
-      {"no_housing", .text = housing ? NULL : left_out},
+      {"no_housing", .text = housing                  ? NULL
+                             : text->housing_left_out ? " that could be used."
+                                                      : "."},
       {"metres", .number = lamp->frame.metres_per_unit},
       {"in_centimetres", .text = tell_centimetres(&lamp->frame, centimetres)},
       {"radiance_unit", .text = lamp->frame.radiance_unit},

@@ -42,8 +42,8 @@ void include_print(const char *template, const struct include_text *text,
                    const struct include_lamp *lamp, const struct include_value *values, FILE *out);
 
 /* `reach`: how far away POV-Ray shows anything of a light of this intensity (radiance times area,
- * of its brightest channel, at Scale 1), in lamp units; 0 beyond 1000 widths of the lamp, where
- * nobody looks. Of the brightest lights of the pages, the faintest counts. */
+ * of its brightest channel, at Scale 1), in lamp units; 0 beyond 1000 widths of the lamp,
+ * too far to matter. Of the brightest lights of the pages, the faintest counts. */
 double include_reach(double intensity, double width);
 
 /* Unit vectors along u, v and the normal, and the centre, with `between` between them. */
