@@ -1,7 +1,7 @@
 /* export_folder.h - a folder that appears whole or not at all: it is filled under a temporary
- * name beside the target, TARGET.unfinished-export.XXXXXX, and renamed when all of it is on disk. A signal
- * that ends the program removes it (temporary.h); one that was killed leaves it, and the next
- * export to the target removes it. */
+ * name beside the target, TARGET.unfinished-export.XXXXXX, and renamed when all of it is on disk. A
+ * signal that ends the program removes it (temporary.h); one that was killed leaves it, and the
+ * next export to the target removes it. */
 #ifndef EXPORT_FOLDER_H
 #define EXPORT_FOLDER_H
 

@@ -133,7 +133,7 @@ apart() {
   command -v rsync >/dev/null || fail 1 '--copy: rsync is not here'
   other_words
   for file in "${words[@]}"; do
-    [ ! -f "$file" ] || [[ ! $file =~ ^/|(^|/)\.\./ ]] || fail 1 "$file: --copy: is not below the working folder"
+    [[ ! $file =~ (^/|(^|/)\.\./).*\.pov$ ]] || fail 1 "$file: --copy: is not below the working folder"
   done
   rm -f -- "$kept"/joblog.*
   # Small bakes that decide what the bake is to be: once, for all.
