@@ -11,6 +11,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "base/interval.h"
+
 enum {
   PROBES = 20000,         /* of a page */
   MOST_CANDELA = 1 << 18, /* of a table */
@@ -85,15 +87,8 @@ static enum result take_probes(struct lamp *lamp, struct error *error) {
 
 /* The interval of ascending values that holds x, and where in it, 0 to 1. */
 static int interval(const double *values, int count, double x, double *part) {
-  int low = 0, high = count - 1;
-  while (high - low > 1) {
-    int middle = (low + high) / 2;
-    if (values[middle] <= x)
-      low = middle;
-    else
-      high = middle;
-  }
-  *part = within(0, 1, (x - values[low]) / (values[high] - values[low]));
+  int low = interval_find(values, count, x);
+  *part = within(0, 1, (x - values[low]) / (values[low + 1] - values[low]));
   return low;
 }
 
@@ -145,7 +140,9 @@ static enum result blame_make(const struct far_grid *grid, struct blame *blame,
     size_t count = (size_t)grid->count[axis];
     blame->off[axis] = calloc(count, sizeof(double));
     blame->all[axis] = calloc(count, sizeof(double));
-    if (!blame->off[axis] || !blame->all[axis]) return result_no_memory(error);
+    if (blame->off[axis] && blame->all[axis]) continue;
+    (void)result_no_memory(error);
+    return RESULT_MEMORY;
   }
   return RESULT_OK;
 }

@@ -17,8 +17,8 @@ Usage: canned-parallel [OPTION...] [--] bakeslab bake LAMP.pov -o SLAB [OPTION..
 Bakes a lamp on several machines by GNU parallel and ssh, and waits for the slab.
 
   -S, --sshloginfile=FILE    The machines, a line each, as GNU parallel takes
-                             them; :, say, is this one (default: those of
-                             ~/.parallel/sshloginfile)
+                             them; : is this one, but not with --copy
+                             (default: those of ~/.parallel/sshloginfile)
   -n, --workers=N            Bakes at a time (default: one a machine, with a
                              POV-Ray process for each of its processors)
       --copy                 The machines do not see the working folder: the
@@ -62,6 +62,8 @@ parallel --version 2>/dev/null | grep -q '^GNU parallel' || fail 1 'the parallel
 [ -r "$machines" ] || fail 1 "$machines: cannot be read; it is to name a machine a line"
 count=$(grep -cvE '^[[:space:]]*(#|$)' "$machines" || true)
 [ "$count" -gt 0 ] || fail 1 "$machines: names no machine"
+[ "$copy" = no ] || ! grep -qE '^[[:space:]]*([0-9]+/)?:[[:space:]]*$' "$machines" ||
+  fail 1 "$machines: --copy: \`:' is this machine without ssh, to which nothing is copied; name it as ssh does"
 [ "$workers" -gt 0 ] || workers=$count
 [ "$copy" = no ] || [ "$workers" -gt 1 ] || workers=2 # one shard is no shard
 

@@ -54,6 +54,12 @@ says() {
     says 2 "$it: --shard: workers share the work by themselves; see \`$it --help\`" "$it" bakeslab bake a.pov -o a.tif --shard 1/2
     says 1 "$it: no/a.tif: its folder is not there" "$it" bakeslab bake a.pov -o no/a.tif
   done
+  if command -v parallel >/dev/null; then
+    printf 'far\n2/:\n' >machines
+    says 1 "canned-parallel: machines: --copy: \`:' is this machine without ssh, to which nothing is copied; name it as ssh does" \
+      canned-parallel -S machines --copy bakeslab bake flat.pov -o a.tif
+    [ ! -e a.tif.parallel ]
+  fi
   printf '#!/bin/sh\necho "sbatch: error: invalid partition specified: x" >&2; exit 1\n' >sbatch
   chmod +x sbatch
   says 1 'canned-slurm: sbatch: invalid partition specified: x' canned-slurm bakeslab bake flat.pov -o a.tif

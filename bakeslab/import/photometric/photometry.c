@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/interval.h"
+
 static const double degrees = 180 / M_PI;
 
 void photometry_free(struct photometry *lamp) {
@@ -65,19 +67,11 @@ void photometry_table_direction(const struct photometry *lamp, size_t entry, dou
 
 /* The cell of ascending values around x, and where in it, 0 to 1. False outside. */
 static bool find(const double *values, int count, double x, int *cell, double *part) {
-  int low = 0, high = count - 1;
   *cell = 0;
   *part = 0;
-  if (!(x >= values[0] && x <= values[high])) return false;
-  while (high - low > 1) {
-    int middle = (low + high) / 2;
-    if (values[middle] <= x)
-      low = middle;
-    else
-      high = middle;
-  }
-  *cell = low;
-  if (high > low) *part = (x - values[low]) / (values[high] - values[low]);
+  if (!(x >= values[0] && x <= values[count - 1])) return false;
+  *cell = interval_find(values, count, x);
+  if (count > 1) *part = (x - values[*cell]) / (values[*cell + 1] - values[*cell]);
   return true;
 }
 
